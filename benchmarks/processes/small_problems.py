@@ -1,7 +1,7 @@
 """What a slab of a small problem costs: compiled, with its steps, with its history, and by the solver for all models.
 
 ``python benchmarks/processes/small_problems.py`` prints the table.  Times are those of the processor, the best of some
-runs.  A run has its line of the history and its two probes for each slab, and one frame at the end; what opening and
+runs.  ``told`` is a run with a callback for each step.  A run has its line of the history and its two probes for each slab, and one frame at the end; what opening and
 closing it takes is left out, by the difference of a long and a short run.  Bars fly, a disc lies on a floor.
 """
 
@@ -21,12 +21,15 @@ SLABS = import_module("softway.marching.slabs")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cost:
-    """Microseconds a slab: the march with its steps, the run with its records, and the march for all models."""
+    """Microseconds a slab: the march with its steps, the run with its records, the run with a callback that receives
+    each step, and the march for all models.
+    """
 
     case: str
     unknowns: int
     march: float
     run: float
+    told: float
     python: float
 
 
@@ -68,18 +71,23 @@ def measured(case: str, scene: sw.Scene, step: float, slabs: int, repeats: int) 
 
     checked = {count: sw.check(_scenario(scene, step, count)) for count in (slabs, slabs // 4)}
 
-    def run(count: int) -> None:
+    def run(count: int, progress: Callable[[sw.Progress], None] | None = None) -> None:
         with tempfile.TemporaryDirectory() as folder:
-            sw.run(checked[count], Path(folder) / "run")
+            sw.run(checked[count], Path(folder) / "run", progress=progress)
 
-    def spent(count: int) -> float:
-        return count * _best(run, count, repeats, nullcontext)
+    def told(count: int) -> None:
+        run(count, lambda progress: None)
+
+    def each(run: Callable[[int], None]) -> float:
+        spent = [count * _best(run, count, repeats, nullcontext) for count in (slabs, slabs // 4)]
+        return (spent[0] - spent[1]) / (slabs - slabs // 4)
 
     return Cost(
         case=case,
         unknowns=int(model.dofs.size),
         march=_best(march, slabs, repeats, nullcontext),
-        run=(spent(slabs) - spent(slabs // 4)) / (slabs - slabs // 4),
+        run=each(run),
+        told=each(told),
         python=_best(march, few, repeats, _for_all_models),
     )
 
@@ -130,9 +138,9 @@ def costs(slabs: int, repeats: int) -> Iterator[Cost]:
 
 def main() -> None:
     """Print the table."""
-    print(f"{'case':18} {'unknowns':>8} {'march us':>9} {'run us':>9} {'all models us':>14}")
+    print(f"{'case':18} {'unknowns':>8} {'march us':>9} {'run us':>9} {'told us':>9} {'all models us':>14}")
     for cost in costs(4000, 5):
-        row = f"{cost.march:9.1f} {cost.run:9.1f} {cost.python:14.0f}"
+        row = f"{cost.march:9.1f} {cost.run:9.1f} {cost.told:9.1f} {cost.python:14.0f}"
         print(f"{cost.case:18} {cost.unknowns:8d} {row}", flush=True)
 
 

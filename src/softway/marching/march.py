@@ -1,6 +1,7 @@
 """March of a scene: accepted slabs (time steps), on meshes that stay, adapt or are replaced."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from typing import Literal
 
 from softway.errors import Cancel
@@ -12,7 +13,8 @@ from softway.marching.remeshing.forming.forming_march import forming_march
 from softway.marching.results.step import Step
 from softway.marching.results.trying import TryWatch
 from softway.marching.rules.slab_rule import Method
-from softway.marching.slabs import slabs
+from softway.marching.slab.step_group import StepGroup, in_steps
+from softway.marching.slabs import groups
 from softway.marching.start.preparation import prepare
 from softway.marching.start.slab_tolerance import slab_tolerance
 from softway.marching.state.march_state import MarchState, Settings
@@ -93,13 +95,41 @@ def march(
     >>> abs(steps[-1].ledger.energy_error) < 1e-12
     True
     """
-    model = scene if isinstance(scene, Model) else build(scene)
-    model = formable(admitted(model, method)[0], method)[0]
+    model = _admitted(scene, method)
     bound = slab_tolerance(model, step, tolerance, weight, method)
     settings = Settings(until=until, step=step, weight=weight, method=method, control=control, tolerance=bound)
+    return in_steps(_groups(model, settings, state, cancel, trying), cancel)
+
+
+def march_in_groups(
+    scene: Scene | Model, settings: Settings, *, state: State | MarchState | None = None, trying: TryWatch | None = None
+) -> Iterator[Step | StepGroup]:
+    """March as :func:`march` does, with slabs that were compiled together as one group.
+
+    A group has the numbers of its slabs as arrays, and makes steps of those for which it is asked.
+    """
+    model = _admitted(scene, settings.method)
+    bound = slab_tolerance(model, settings.step, settings.tolerance or "off", settings.weight, settings.method)
+    return _groups(model, replace(settings, tolerance=bound), state, None, trying)
+
+
+def _admitted(scene: Scene | Model, method: Method) -> Model:
+    """Model of a scene, with meshes that may change where the method bears it."""
+    model = scene if isinstance(scene, Model) else build(scene)
+    return formable(admitted(model, method)[0], method)[0]
+
+
+def _groups(
+    model: Model,
+    settings: Settings,
+    state: State | MarchState | None,
+    cancel: Cancel | None,
+    trying: TryWatch | None,
+) -> Iterator[Step | StepGroup]:
+    """Slabs on meshes that stay, adapt or are replaced."""
     if adaptions(model.scene):
         return adaptive_march(model, settings, state, cancel, trying)
     if replacements(model.scene):
         return forming_march(model, settings, state, cancel, trying)
     prepared = prepare(model, settings, state, cancel, trying)
-    return slabs(prepared.stepper, prepared.march_state)
+    return groups(prepared.stepper, prepared.march_state)

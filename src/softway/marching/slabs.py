@@ -11,11 +11,13 @@ from softway.marching.audit.folded_cells import WatchedCells, watched_cells
 from softway.marching.audit.ledger import update_account
 from softway.marching.results.step import Event, Ledger, Report, Step
 from softway.marching.results.step_states import KnownStates
+from softway.marching.results.trying import watched
 from softway.marching.slab.compiled_model import compiled_model
-from softway.marching.slab.compiled_slabs import next_batch, steps
+from softway.marching.slab.compiled_slabs import next_batch
 from softway.marching.slab.resident_model import resident_model
 from softway.marching.slab.resident_slabs import next_resident
 from softway.marching.slab.slab_step import Stepper
+from softway.marching.slab.step_group import StepGroup, in_steps
 from softway.marching.start.knots import slab_length
 from softway.marching.start.ladder import Quality, fastest, next_rung, on_ladder
 from softway.marching.state.march_state import AdaptedMeshes, MarchState, StepHistory
@@ -32,6 +34,11 @@ STRAINED = 0.2
 
 def slabs(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
     """Accepted slabs from a march state to the end of the march."""
+    return in_steps(groups(stepper, march_state), stepper.cancel)
+
+
+def groups(stepper: Stepper, march_state: MarchState) -> Iterator[Step | StepGroup]:
+    """Accepted slabs from a march state to the end of the march; those that are compiled together as a group."""
     model, settings, span = stepper.model, march_state.settings, march_state.step_history.span
     until, memory, before = settings.until, march_state.memory, split_states(model, march_state.state)
     cells, compiled = crushing(model, stepper.method), compiled_model(stepper, settings, span)
@@ -40,8 +47,9 @@ def slabs(stepper: Stepper, march_state: MarchState) -> Iterator[Step]:
         some = None if compiled is None else next_batch(compiled, march_state, before, memory)
         some = some if resident is None else next_resident(resident, march_state, before, memory)
         if some is not None:
-            yield from steps(stepper, some)
             count = len(some.iterations)
+            watched(stepper.trying, march_state.slabs + 1, march_state.state.time, span)
+            yield StepGroup.whole(some)
             march_state, memory, before = some.march_state(count), some.memory_after(count), some.state(count)
             continue
         length = slab_length(stepper.ends, march_state)

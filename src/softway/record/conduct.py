@@ -10,6 +10,7 @@ from types import MappingProxyType
 
 from softway.errors import Note
 from softway.marching.results.step import Step
+from softway.marching.slab.step_group import StepGroup
 from softway.record.audit.watch import watcher
 from softway.record.first_step import chained, first_step
 from softway.record.read import summary
@@ -38,7 +39,7 @@ STANDARD: Mapping[str, Opener] = MappingProxyType(
 
 
 def record_run(
-    steps: Iterator[Step],
+    steps: Iterator[Step | StepGroup],
     opening: RunStart,
     place: RunFolder,
     *,
@@ -53,7 +54,7 @@ def record_run(
     Parameters
     ----------
     steps
-        Steps of a march.
+        Steps of a march, or groups of slabs that were compiled together.
     opening
         Start of the run.
     place
@@ -65,7 +66,7 @@ def record_run(
     plan
         Schedule of the checkpoints; a temporary folder has none.
     progress
-        Callback after each recorded step.
+        Callback after each recorded step, or group.
 
     Raises
     ------
@@ -74,6 +75,7 @@ def record_run(
     NumericsError, Cancelled, KeyboardInterrupt, StorageError, and any exception of ``progress``
         After the records have been closed; a named folder stays, with the reason in ``provenance.json``.
     """
+    steps = _parts(steps, opening)
     steps = watcher(opening).watched(steps) if opening.audit else steps
     first, early = first_step(steps)
     given = texts or {}
@@ -100,7 +102,7 @@ def record_run(
 
 
 def continue_run(
-    steps: Iterator[Step],
+    steps: Iterator[Step | StepGroup],
     opening: RunStart,
     run: Run,
     found: Checkpoint | None,
@@ -139,6 +141,7 @@ def continue_run(
         (run.path / summary.FILE).unlink(missing_ok=True)
     keeper = CheckpointWriter(run.path, plan, recorders, 0.0 if found is None else found.wall)
     meter = None if progress is None else Meter(progress, opening.until, time, slabs)
+    steps = _parts(steps, opening)
     if opening.audit:
         audit = watcher(opening)
         audit.past(run.history)
@@ -146,8 +149,17 @@ def continue_run(
     return _carried_on(steps, run, recorders, keeper, record, meter)
 
 
+def _parts(steps: Iterator[Step | StepGroup], opening: RunStart) -> Iterator[Step | StepGroup]:
+    """Steps and groups of slabs, with a step of each slab at whose end a frame is stored."""
+    for one in steps:
+        if isinstance(one, StepGroup):
+            yield from opening.parts(one)
+        else:
+            yield one
+
+
 def _carried_on(
-    steps: Iterator[Step],
+    steps: Iterator[Step | StepGroup],
     run: Run,
     recorders: Mapping[str, Recorder],
     keeper: CheckpointWriter,
@@ -156,11 +168,11 @@ def _carried_on(
 ) -> Run:
     """Record all steps and finish the run."""
     with ending(partial(_finish, run, recorders, keeper, record)):
-        for step in steps:
+        for one in steps:
             with recording(run.path):
-                _take(recorders, keeper, step)
+                _take(recorders, keeper, one)
             if meter is not None:
-                meter.took(step)
+                meter.took(one)
     return run
 
 
@@ -177,10 +189,13 @@ def _opened(folder: Path, opening: RunStart, marks: Mapping[str, int]) -> dict[s
     return found
 
 
-def _take(recorders: Mapping[str, Recorder], keeper: CheckpointWriter, step: Step) -> None:
+def _take(recorders: Mapping[str, Recorder], keeper: CheckpointWriter, one: Step | StepGroup) -> None:
     for recorder in recorders.values():
-        recorder.take(step)
-    keeper.took(lambda: step.march_state)
+        if isinstance(one, StepGroup):
+            recorder.take_group(one)
+        else:
+            recorder.take(one)
+    keeper.took(lambda: one.march_state)
 
 
 def _finish(

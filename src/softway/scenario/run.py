@@ -15,13 +15,14 @@ from softway.errors import Cancel, InputError
 from softway.heat.coupled.solid_temperature import temperatures_of
 from softway.marching.audit.balances import balances, contact_forces
 from softway.marching.audit.ledger import initial_ledger as audit
-from softway.marching.march import march
+from softway.marching.march import march, march_in_groups
 from softway.marching.remeshing.adapted_scene import adapted_scene
 from softway.marching.remeshing.forming.formed_scene import formed_scene
 from softway.marching.results.step import Ledger, Step
+from softway.marching.slab.step_group import StepGroup
 from softway.marching.start.initial_state import without_contact
 from softway.marching.start.stored_state import require_of_model
-from softway.marching.state.march_state import MarchState
+from softway.marching.state.march_state import MarchState, Settings
 from softway.marching.state.model_state import ModelState, join_states, split_states
 from softway.model.model import Model
 from softway.model.scene import State
@@ -35,7 +36,7 @@ from softway.record.storage.gate.own_files import require_own
 from softway.record.storage.lock import locked
 from softway.record.storage.provenance import DONE
 from softway.record.storage.run_folder import RunFolder
-from softway.record.write.progress import Heartbeat, MechanismWatch, Tell, Watch
+from softway.record.write.progress import Heartbeat, MechanismWatch, Occasional, Tell, Watch
 from softway.record.write.recorder import RunStart
 from softway.scenario.checks.check import Checked, check
 from softway.scenario.checks.probes import probe_readings
@@ -105,7 +106,7 @@ def run(
         return run_rigid(checked, place, _texts(checked.scenario), progress=watch, cancel=cancel, tell=tell)
     given, opening = checked.scenario, _opening(checked)
     if ranks is None:
-        steps = _steps(checked, opening.initial, cancel, tell)
+        steps = _steps(checked, opening.initial, cancel, tell, progress)
     else:
         steps = steps_of_ranks(ranks, checked, opening.initial, cancel, Heartbeat(tell))
     plan, watched = given.output.checkpoints, cast(Watch | None, progress)
@@ -162,7 +163,7 @@ def resume(
         pattern = join_states(checked.model, opening.initial)
         found = last(stopped.path, partial(_require_state, checked.model, pattern))
         begin = opening.initial if found is None else cast(MarchState, found.march_state)
-        steps, plan = _steps(checked, begin, cancel, tell), checked.scenario.output.checkpoints
+        steps, plan = _steps(checked, begin, cancel, tell, progress), checked.scenario.output.checkpoints
         return continue_run(steps, opening, stopped, found, plan=plan, progress=cast(Watch | None, progress))
 
 
@@ -233,9 +234,25 @@ def _start(given: Scenario, initial: State, ledger: Ledger, model: Model) -> Run
     )
 
 
-def _steps(checked: Checked, state: State | MarchState, cancel: Cancel | None, tell: Tell) -> Iterator[Step]:
-    """March of a checked scenario."""
+def _steps(
+    checked: Checked,
+    state: State | MarchState,
+    cancel: Cancel | None,
+    tell: Tell,
+    progress: Watch | MechanismWatch | None,
+) -> Iterator[Step | StepGroup]:
+    """March of a checked scenario; steps of each slab only for a callback that asks for them."""
     time = checked.scenario.time
+    if cancel is None and (progress is None or isinstance(progress, Occasional)):
+        settings = Settings(
+            until=time.end,
+            step=checked.step,
+            weight=time.weight,
+            method=checked.scenario.solver,
+            control=time.control,
+            tolerance=checked.tolerance,
+        )
+        return march_in_groups(checked.model, settings, state=state, trying=Heartbeat(tell))
     return march(
         checked.model,
         until=time.end,

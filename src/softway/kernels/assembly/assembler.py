@@ -7,6 +7,7 @@ from scipy.sparse import csc_array, csr_array
 
 from softway.arrays import Array, IntArray
 from softway.kernels.assembly.node_pairs import expanded, node_pairs
+from softway.kernels.jit.compilation import SMALL, interpreted
 
 
 def gather_table(cells: IntArray, rows: Array, nodes: int) -> csr_array:
@@ -100,7 +101,8 @@ def assembler(cells: list[IntArray], nodes: int, components: int) -> Assembler:
     """
     widths = np.concatenate([[0], *(np.full(len(block), block.shape[1]) for block in cells)])
     numbers = np.concatenate([np.asarray(block, np.int64).ravel() for block in cells])
-    rows, columns, starts, members = node_pairs(numbers, np.cumsum(widths), nodes)
+    small = sum(block.size * block.shape[1] for block in cells) < SMALL
+    rows, columns, starts, members = interpreted(node_pairs, small)(numbers, np.cumsum(widths), nodes)
     sums = csr_array((np.ones(len(members)), members, starts.copy()), (len(columns), len(members)))
-    order, indices, indptr = expanded(rows, columns, components)
+    order, indices, indptr = interpreted(expanded, small)(rows, columns, components)
     return Assembler(sums=sums, order=order, indices=indices, indptr=indptr)

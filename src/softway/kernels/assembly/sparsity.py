@@ -7,6 +7,7 @@ from scipy.sparse import csc_array
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.kernels.assembly.merged_pattern import merged_pattern
+from softway.kernels.jit.compilation import SMALL, interpreted
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -56,7 +57,7 @@ def sum_of(constant: csc_array, other: csc_array, keep: BoolArray) -> Sum:
         entries = csc_array((np.arange(other.nnz), other.indices, other.indptr), other.shape).sorted_indices()
         two = entries
     pattern = one.indptr, one.indices, one.data, two.indptr, two.indices
-    values, picked, place, indices, indptr = merged_pattern(*pattern, number)
+    values, picked, place, indices, indptr = interpreted(merged_pattern, one.nnz + two.nnz < SMALL)(*pattern, number)
     kept = picked if entries is None else entries.data[picked]
     return Sum(
         constant=values.copy(),

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from numba import cfunc, njit, types
+from numba.extending import register_jitable
 
 Stage = Any
 """Compiled function ``(state, moduli)`` of one point in every lane; both arguments are addresses of numbers."""
@@ -22,6 +23,7 @@ _PART = _EXACT | {"forceinline": True, "no_cfunc_wrapper": True, "no_cpython_wra
 _UNCOUNTED: dict[str, Any] = {"_nrt": False}
 _POINT = types.void(types.CPointer(types.float64), types.CPointer(types.float64))
 _SHARED = (
+    "jit/by_address.py",
     "jit/compilation.py",
     "jit/elementary.py",
     "jit/lanes.py",
@@ -59,6 +61,8 @@ _SHARED = (
     "slab/works.py",
     "../tolerances.py",
 )
+SMALL = 4000
+"""Numbers of entries below which kernels of whole numbers take less time without their compilation."""
 _SOURCES = b"".join((Path(__file__).parents[1] / name).read_bytes() for name in _SHARED)
 _ENDING = f"_{sha256(_SOURCES).hexdigest()[:12]}"
 
@@ -83,6 +87,19 @@ def inlined(function: Callable[..., Any]) -> Callable[..., Any]:
     return njit(**_PART)(function)
 
 
+def shared(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Make a part of kernels that also runs as it is, where :func:`interpreted` ones call it."""
+    return register_jitable(**_EXACT)(function)  # type: ignore[no-any-return]
+
+
+def interpreted(kernel: Callable[..., Any], small: bool) -> Callable[..., Any]:
+    """Function of a kernel of whole numbers, not compiled for ``small`` arguments: it takes less than its compilation.
+
+    Kernels of floating-point numbers round differently when compiled.
+    """
+    return kernel.py_func if small else kernel  # type: ignore[attr-defined, no-any-return]
+
+
 def uncounted_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
     """Make a kernel that allocates no arrays and counts no references to them; its parts are ``uncounted``."""
     return _kept(njit, function, _KERNEL | _UNCOUNTED)
@@ -91,6 +108,13 @@ def uncounted_kernel(function: Callable[..., Any]) -> Callable[..., Any]:
 def uncounted(function: Callable[..., Any]) -> Callable[..., Any]:
     """Make a function that is inlined in kernels, allocates no arrays and counts no references to them."""
     return njit(**_PART, **_UNCOUNTED)(function)
+
+
+def called(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Make a function as ``uncounted``, which is called and not inlined: it is compiled once, for a few nanoseconds
+    more in each call.
+    """
+    return njit(**(_PART | {"forceinline": False}), **_UNCOUNTED)(function)
 
 
 def _kept(compiler: Callable[..., Any], function: Callable[..., Any], options: dict[str, Any]) -> Any:

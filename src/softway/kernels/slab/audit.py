@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from softway.kernels.jit.compilation import uncounted
+from softway.kernels.jit.compilation import called
 from softway.kernels.slab.products import add_forces, along, extent, momenta
 from softway.kernels.slab.tables import (
     CLOSED_POWER,
@@ -27,7 +27,7 @@ SURE = 0.5
 """Part of a limit within which a balance certainly holds."""
 
 
-@uncounted
+@called
 def closes(bodies, rows, course, work, unit, s):
     """True if the energy of every group closes to rounding without a scalar; ``unit`` makes forces of impulses."""
     u0, u1, f0, f1, d = course.u[s], course.u[s + 1], course.force[s], course.force[s + 1], bodies.dimension
@@ -59,7 +59,7 @@ def closes(bodies, rows, course, work, unit, s):
     return closed
 
 
-@uncounted
+@called
 def audited(bodies, rows, course, work, account, s):
     """Complete the state after a slab and its sums; false if a balance does not certainly hold."""
     h = course.time[s + 1] - course.time[s]
@@ -91,7 +91,7 @@ def audited(bodies, rows, course, work, account, s):
     return course.sums[s, UNCLOSED] <= limit and _unrest(bodies, rows, course, work, h, s) <= BEQUEST * limit
 
 
-@uncounted
+@called
 def _touching(rows, course, work, s):
     """Sums over the contacts; the least gap.  ``work.row`` are the mean forces of the rows."""
     least = np.inf
@@ -114,7 +114,7 @@ def _touching(rows, course, work, s):
     return least
 
 
-@uncounted
+@called
 def _supported(bodies, course, work, h, s):
     """Mean forces of the supports."""
     for c in range(len(work.q)):
@@ -125,7 +125,7 @@ def _supported(bodies, course, work, h, s):
             course.support[s, c] = inertia + mean - bodies.load[c] - work.push[c]
 
 
-@uncounted
+@called
 def _momentum(bodies, course, work, h, s):
     """Set momentum and its error; the sum of the sizes of its parts."""
     d, size, held = bodies.dimension, 0.0, course.support.shape[0] > 0
@@ -145,7 +145,7 @@ def _momentum(bodies, course, work, h, s):
     return size
 
 
-@uncounted
+@called
 def _spin(bodies, course, work, s):
     """Set the angular momentum about the origin."""
     d, u, p, spin = bodies.dimension, course.u[s + 1], work.after, course.sums[s]
@@ -160,7 +160,7 @@ def _spin(bodies, course, work, s):
             spin[SPIN + 1] += z * p[c] - x * p[c + 2]
 
 
-@uncounted
+@called
 def _energies(bodies, course, work, account, s):
     """Set energies, work and the error of their balance; the energy that takes part.
 
@@ -180,7 +180,7 @@ def _energies(bodies, course, work, account, s):
     return level + 0.5 * kinetic + abs(total)
 
 
-@uncounted
+@called
 def _unrest(bodies, rows, course, work, h, s):
     """Momentum over a slab of the unbalanced forces on massless components at its end."""
     d, most = bodies.dimension, 0.0

@@ -7,11 +7,20 @@ that is not zero, or a balance within half its limit.  So both take the same dec
 
 import numpy as np
 
-from softway.kernels.jit.compilation import uncounted, uncounted_kernel
+from softway.kernels.jit.compilation import called, uncounted_kernel
 from softway.kernels.multibody.band import factor_band, solve_band
 from softway.kernels.slab.audit import audited, closes
 from softway.kernels.slab.products import along, elastic, extent, greatest, momenta
-from softway.kernels.slab.tables import FIRST, ITERATIONS, LAST
+from softway.kernels.slab.tables import (
+    FIRST,
+    ITERATIONS,
+    LAST,
+    bodies_at,
+    course_at,
+    operator_at,
+    rows_at,
+    work_at,
+)
 
 SURE = 0.5
 """Part of a limit within which a decision is certain."""
@@ -34,8 +43,9 @@ def factor(matrix, lower, pivot):
 
 
 @uncounted_kernel
-def answer(bodies, rows, r, lower, pivot, x, out):
+def answer(bodies_place, rows_place, r, lower, pivot, x, out):
     """Answer (N,) of the operator to a unit impulse on a row; ``x`` (f,) is work space."""
+    bodies, rows = bodies_at(bodies_place), rows_at(rows_place)
     x[:] = 0.0
     for e in range(rows.start[r], rows.start[r + 1]):
         place = bodies.place[rows.component[e]]
@@ -47,11 +57,14 @@ def answer(bodies, rows, r, lower, pivot, x, out):
 
 
 @uncounted_kernel
-def slabs(bodies, rows, operator, course, work, tolerance, account, wanted):
+def slabs(places, tolerance, account, wanted):
     """Compute up to ``wanted`` slabs from the first state of a course, and return how many were computed.
 
+    ``places`` (5,) are the addresses of the tables of bodies, rows, operator, course and work.
     ``account`` (2,) are energy at the start of the march and external work, ``tolerance`` that of the iteration.
     """
+    bodies, rows, operator = bodies_at(places[0]), rows_at(places[1]), operator_at(places[2])
+    course, work = course_at(places[3]), work_at(places[4])
     momenta(bodies, course.v[0], work.before)
     for s in range(wanted):
         if not _slab(bodies, rows, operator, course, work, tolerance, s):
@@ -63,7 +76,7 @@ def slabs(bodies, rows, operator, course, work, tolerance, account, wanted):
     return wanted
 
 
-@uncounted
+@called
 def _slab(bodies, rows, operator, course, work, tolerance, s):
     """Solve a slab; false if it is not certain."""
     h = course.time[s + 1] - course.time[s]
@@ -98,7 +111,7 @@ def _slab(bodies, rows, operator, course, work, tolerance, s):
     return closes(bodies, rows, course, work, 1.0, s)
 
 
-@uncounted
+@called
 def _expect(bodies, rows, course, work, h, s):
     """Set q (N,) to the velocity that goes on as before; false if a row would overlap too far without contact."""
     u, v, slope, end = course.u[s], course.v[s], course.slope[s], work.x
@@ -112,14 +125,14 @@ def _expect(bodies, rows, course, work, h, s):
     return slow
 
 
-@uncounted
+@called
 def arrive(bodies, u, v, q, h, out):
     """Displacement (N,) at the end of a slab of the length h, for q (N,)."""
     for c in range(len(q)):
         out[c] = u[c] + h * (0.5 * (v[c] + q[c]) if bodies.heavy[c] else 0.5 * q[c])
 
 
-@uncounted
+@called
 def _iterated(bodies, rows, operator, course, work, h, s):
     """Correct q (N,) and the impulses (m,) of the active rows by the operator; return the greatest change."""
     f0, f1, v, x, field = course.force[s], course.force[s + 1], course.v[s], work.x, work.after
@@ -143,7 +156,7 @@ def _iterated(bodies, rows, operator, course, work, h, s):
     return _pressed(bodies, rows, operator, course, work, h, s)
 
 
-@uncounted
+@called
 def _pressed(bodies, rows, operator, course, work, h, s):
     """Change q (N,) by the correction without new contact forces, and close the active rows; the greatest change."""
     field, impulse, k = work.after, course.pressure[s + 1], len(operator.active)
@@ -165,7 +178,7 @@ def _pressed(bodies, rows, operator, course, work, h, s):
     return greatest(field)
 
 
-@uncounted
+@called
 def _target(bodies, rows, course, h, s, r):
     """Component of q along a row that closes its gap at the end of the slab."""
     gap = rows.offset[r]
@@ -175,7 +188,7 @@ def _target(bodies, rows, course, h, s, r):
     return -2.0 * gap / h
 
 
-@uncounted
+@called
 def _stays(bodies, rows, operator, course, work, h, rounding, s):
     """True if closed rows certainly stay closed, and open rows open."""
     impulse, most = course.pressure[s + 1], 0.0

@@ -1,9 +1,9 @@
 """Products of nodal fields with mass, stiffness and contact rows, in loops over nodes."""
 
-from softway.kernels.jit.compilation import uncounted
+from softway.kernels.jit.compilation import called
 
 
-@uncounted
+@called
 def momenta(bodies, v, out):
     """``M v`` (N,)."""
     d = bodies.dimension
@@ -15,7 +15,7 @@ def momenta(bodies, v, out):
             out[i * d + a] = total
 
 
-@uncounted
+@called
 def elastic(bodies, u, force, energy):
     """Internal force (N,) and energy (parts,) of linear laws, by differences of displacements.
 
@@ -37,7 +37,7 @@ def elastic(bodies, u, force, energy):
         energy[part] = 0.5 * total
 
 
-@uncounted
+@called
 def along(rows, r, field):
     """Component of a field (N,) along a row."""
     total = 0.0
@@ -46,7 +46,7 @@ def along(rows, r, field):
     return total
 
 
-@uncounted
+@called
 def add_forces(rows, amounts, out):
     """Add the nodal forces (N,) of forces (m,) of the rows."""
     for r in range(len(rows.offset)):
@@ -55,7 +55,7 @@ def add_forces(rows, amounts, out):
                 out[rows.component[e]] += rows.value[e] * amounts[r]
 
 
-@uncounted
+@called
 def greatest(field):
     """Greatest magnitude of a field; not a number if a value is none."""
     most = 0.0
@@ -65,7 +65,7 @@ def greatest(field):
     return most
 
 
-@uncounted
+@called
 def extent(bodies, u):
     """Greatest coordinate at a displacement (N,) [m]."""
     most = 0.0

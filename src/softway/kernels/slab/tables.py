@@ -3,6 +3,7 @@
 from typing import NamedTuple
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.kernels.jit.by_address import BLOCKS, FLAGS, NUMBERS, ROWS, WHOLE, WHOLES, table
 
 
 class Bodies(NamedTuple):
@@ -93,6 +94,54 @@ class Work(NamedTuple):
     group: Array
     works: Array
 
+
+bodies_at = table(
+    "Bodies",
+    dimension=WHOLE,
+    first=WHOLES,
+    group=WHOLES,
+    heavy=FLAGS,
+    place=WHOLES,
+    mass_start=WHOLES,
+    mass_node=WHOLES,
+    mass=NUMBERS,
+    weight=NUMBERS,
+    stiff_start=WHOLES,
+    stiff_node=WHOLES,
+    stiff=BLOCKS,
+    points=NUMBERS,
+    load=NUMBERS,
+    floor=NUMBERS,
+)
+rows_at = table(
+    "Rows",
+    start=WHOLES,
+    component=WHOLES,
+    value=NUMBERS,
+    offset=NUMBERS,
+    contact=WHOLES,
+    part=WHOLES,
+    move=FLAGS,
+    allowed=NUMBERS,
+)
+operator_at = table("Operator", lower=ROWS, pivot=NUMBERS, active=WHOLES, answer=ROWS, inverse=ROWS)
+course_at = table(
+    "Course",
+    time=NUMBERS,
+    u=ROWS,
+    v=ROWS,
+    slope=ROWS,
+    force=ROWS,
+    pressure=ROWS,
+    energy=ROWS,
+    support=ROWS,
+    sums=ROWS,
+    met=BLOCKS,
+)
+work_at = table(
+    "Work", q=NUMBERS, x=NUMBERS, before=NUMBERS, after=NUMBERS, push=NUMBERS, row=NUMBERS, group=ROWS, works=ROWS
+)
+"""The tables at addresses, for kernels."""
 
 KINETIC, STRAIN, WORK, ERROR, MOMENTUM, SPIN, UNCLOSED, COMPLEMENTARITY, POWER, ITERATIONS, FIRST, LAST = (
     0, 1, 2, 3, 4, 7, 10, 11, 12, 13, 14, 15,

@@ -1,6 +1,6 @@
 """Works of the forces of a slab (time step) in its energy balance, in one loop over the components of each solid."""
 
-from softway.kernels.jit.compilation import uncounted, uncounted_kernel
+from softway.kernels.jit.compilation import called, uncounted_kernel
 
 MOVING, SIZE, SLOPE, STILL, STILL_SLOPE, LOADED, ENDS, ENDS_SLOPE = range(8)
 """Columns of the works of a solid: of the mean force along components with inertia, the sum of its magnitudes, and of
@@ -11,7 +11,7 @@ TOGETHER = 256
 """Components that are summed together: rounding errors grow with the number of such sums."""
 
 
-@uncounted
+@called
 def part_works(first, d, heavy, loads, u0, u1, forces, mean, out):
     """Set the works ``out`` (parts, WORKS) of solids with the ``first`` nodes (parts + 1,), from flat fields (N,).
 

@@ -12,6 +12,7 @@ from softway.bodies.dof_map import NodalDofs
 from softway.bodies.elements.section import Axisymmetric
 from softway.bodies.internal_force.elastic.elastic_force import ElasticForce
 from softway.bodies.internal_force.slab_average import Weighted
+from softway.kernels.jit.by_address import packed
 from softway.kernels.slab.march import answer, factor
 from softway.kernels.slab.tables import Bodies, Operator, Rows
 from softway.marching.rules.equilibrated import EndForceContact, Equilibrated
@@ -58,8 +59,9 @@ class CompiledModel:
 
     def _made(self, active: IntArray) -> Operator | None:
         answers, work = np.zeros((len(active), len(self.bodies.heavy))), np.empty(len(self.pivot))
+        tables = packed(self.bodies), packed(self.rows)
         for row, out in zip(active, answers, strict=True):
-            answer(self.bodies, self.rows, row, self.lower, self.pivot, work, out)
+            answer(*(each.ctypes.data for each in tables), row, self.lower, self.pivot, work, out)
         compliance = answers @ _gradient(self.rows, len(self.bodies.heavy))[active].T
         inverse = np.zeros((len(active), len(active)))
         if len(active):

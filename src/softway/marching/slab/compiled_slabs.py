@@ -1,46 +1,18 @@
-"""Several slabs (time steps) in one compiled call, and the steps that they make."""
-
-from collections.abc import Iterator, Mapping
+"""Several slabs (time steps) in one compiled call."""
 
 import numpy as np
 
 from softway.arrays import Array
-from softway.errors import heed
+from softway.kernels.jit.by_address import packed
 from softway.kernels.slab.march import slabs
-from softway.kernels.slab.tables import (
-    CLOSED_POWER,
-    COMPLEMENTARITY,
-    COUNT,
-    ERROR,
-    FIRST,
-    FORCE,
-    GAP,
-    ITERATIONS,
-    KINETIC,
-    LAST,
-    MET,
-    MOMENTUM,
-    POWER,
-    SPIN,
-    STRAIN,
-    SUMS,
-    UNCLOSED,
-    WORK,
-    Course,
-    Work,
-)
+from softway.kernels.slab.tables import ITERATIONS, MET, SUMS, Course, Work
 from softway.kernels.slab.works import WORKS
-from softway.marching.results.step import Certificate, ContactLedger, Ledger, Report, Step
-from softway.marching.results.trying import watched
 from softway.marching.slab.compiled_model import CompiledModel
-from softway.marching.slab.slab_batch import BatchStates, SlabBatch
-from softway.marching.slab.slab_step import Stepper
-from softway.marching.state.march_state import EnergyAccount, MarchState
+from softway.marching.slab.slab_batch import SlabBatch, contractions
+from softway.marching.state.march_state import MarchState
 from softway.marching.state.model_state import ModelState
 from softway.model.model import Model
 from softway.model.scene import State
-from softway.model.slab import Slab
-from softway.solve.methods.iteration import contraction
 from softway.solve.operators.operator_memory import USUAL, WORN, OperatorMemory
 
 TOGETHER, NUMBERS = 256, 200_000
@@ -71,12 +43,22 @@ def next_batch(
     start = account.energy_start - account.dissipation - account.remeshing
     told = np.array([start, account.work_external, account.energy_error])
     work = _work(compiled)
-    count = slabs(compiled.bodies, compiled.rows, operator, course, work, compiled.tolerance, told, wanted)
+    tables = [packed(each) for each in (compiled.bodies, compiled.rows, operator, course, work)]
+    places = np.array([each.ctypes.data for each in tables])
+    count = slabs(places, compiled.tolerance, told, wanted)
     if not count:
         return None
     iterations = tuple(int(i) for i in course.sums[:count, ITERATIONS].tolist())
     return SlabBatch(
-        model=model, begun=march_state, memory=memory, course=course, iterations=iterations, states={0: before}
+        model=model,
+        begun=march_state,
+        memory=memory,
+        course=course,
+        iterations=iterations,
+        contractions=contractions(course.sums[:count], iterations),
+        pairs=model.contacts.rest(model.displacement, 0.0).found,
+        scalars={part.name: 0.0 for part in model.parts},
+        states={0: before},
     )
 
 
@@ -122,76 +104,3 @@ def _work(compiled: CompiledModel) -> Work:
         group=np.zeros((groups, 3)),
         works=np.zeros((len(compiled.bodies.floor), WORKS)),
     )
-
-
-def steps(stepper: Stepper, found: SlabBatch) -> Iterator[Step]:
-    """Steps of a batch; each asks as often if the march is cancelled as if it were solved alone."""
-    course, model, begun, memory = found.course, found.model, found.begun, found.memory
-    pairs, scalars = model.contacts.rest(model.displacement, 0.0).found, {p.name: 0.0 for p in model.parts}
-    labels, count, error = model.contacts.labels, len(found.iterations), begun.account.energy_error
-    time, sums, met = course.time.tolist(), course.sums[:count].tolist(), course.met[:count].tolist()
-    _told(stepper, found)
-    for k, (row, iterations) in enumerate(zip(sums, found.iterations, strict=True)):
-        slab = Slab(start=time[k], end=time[k + 1], weight=begun.settings.weight)
-        for _ in range(0 if stepper.cancel is None else 1 + iterations):
-            heed(stepper.cancel, slab.start)
-        contacts = {label: _contact(c) for label, c in zip(labels, met[k], strict=True)}
-        report = Report(
-            iterations=iterations,
-            pairs=pairs,
-            factorisations=memory.factorisations,
-            renewals=memory.renewals,
-            passes=1,
-            contraction=contraction(row[FIRST], row[LAST], iterations),
-            scalars=scalars,
-        )
-        yield Step(
-            model=model,
-            slab=slab,
-            ledger=_ledger(begun.account, row, course.sums[k], contacts),
-            certificate=_certificate(row, error, contacts),
-            events=(),
-            report=report,
-            states=BatchStates(batch=found, number=k),
-        )
-        error = row[ERROR]
-
-
-def _contact(met: list[float]) -> ContactLedger:
-    """Audit of a contact from its sums."""
-    return ContactLedger(
-        force_n=met[FORCE], force_t=0.0, min_gap=met[GAP], power_residual=met[CLOSED_POWER], count=int(met[COUNT])
-    )
-
-
-def _ledger(account: EnergyAccount, row: list[float], sums: Array, contacts: Mapping[str, ContactLedger]) -> Ledger:
-    """Ledger after a slab from its sums, as numbers and as an array."""
-    return Ledger(
-        energy_kinetic=row[KINETIC],
-        energy_strain=row[STRAIN],
-        work_external=row[WORK],
-        dissipation=account.dissipation,
-        energy_error=row[ERROR],
-        momentum=sums[MOMENTUM : MOMENTUM + 3],
-        spin=sums[SPIN : SPIN + 3],
-        contacts=contacts,
-        remeshing=account.remeshing,
-    )
-
-
-def _certificate(row: list[float], error: float, contacts: Mapping[str, ContactLedger]) -> Certificate:
-    """Certificate of a slab from its sums; ``error`` is that of the energy balance before it [J]."""
-    return Certificate(
-        min_gap=min((c.min_gap for c in contacts.values()), default=np.inf),
-        min_force=0.0,
-        complementarity=row[COMPLEMENTARITY],
-        power_residual=row[POWER],
-        momentum_error=row[UNCLOSED],
-        energy_error=row[ERROR] - error,
-    )
-
-
-def _told(stepper: Stepper, found: SlabBatch) -> None:
-    """Tell that slabs begin: one call computes all of them."""
-    slab = found.begun.slabs + 1
-    watched(stepper.trying, slab, found.begun.state.time, float(found.course.time[1] - found.course.time[0]))

@@ -6,13 +6,14 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from softway.arrays import Array
-from softway.kernels.slab.tables import ERROR, WORK, Course
+from softway.kernels.slab.tables import ERROR, FIRST, LAST, WORK, Course
 from softway.marching.state.march_state import MarchState
 from softway.marching.state.model_state import ModelState, split_states
 from softway.mechanisms.march import BodyState
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.solve.equations.slab_values import SlabStart
+from softway.solve.methods.iteration import contraction
 from softway.solve.operators.operator_memory import OperatorMemory
 
 
@@ -28,6 +29,10 @@ class SlabBatch:
         State of the march before the first of them, ``memory`` with its operator.
     course, iterations
         States and sums of the slabs, and number of iterations of each.
+    contractions
+        Mean ratio of successive changes in each slab.
+    pairs, scalars
+        Pairs of the contact search, and scalars of the solids: the same in all slabs.
     states
         States that were asked for, by the number of slabs before them.
     lengths
@@ -39,6 +44,9 @@ class SlabBatch:
     memory: OperatorMemory
     course: Course
     iterations: tuple[int, ...]
+    contractions: tuple[float, ...]
+    pairs: int
+    scalars: Mapping[str, float]
     states: dict[int, State]
     lengths: tuple[float, ...] = ()
 
@@ -135,3 +143,9 @@ class BatchStates:
         """Body -> (n, d) mean force of the supports on the nodes [N]."""
         model, support = self.batch.model, self.batch.course.support
         return model.split(support[self.number].reshape(model.shape) if len(support) else np.zeros(model.shape))
+
+
+def contractions(sums: Array, iterations: tuple[int, ...]) -> tuple[float, ...]:
+    """Mean ratios of successive changes, from the sums of slabs and their numbers of iterations."""
+    changes = sums[:, (FIRST, LAST)].tolist()
+    return tuple(contraction(first, last, n) for (first, last), n in zip(changes, iterations, strict=True))

@@ -10,6 +10,7 @@ from softway.bodies.prescribed_motion import PlacedShape
 from softway.bodies.solid import Tool
 from softway.marching.results.finding import ENERGY, MOMENTUM, SPIN, finding
 from softway.marching.results.step import Event, Step
+from softway.marching.slab.step_group import StepGroup
 from softway.model.scene import State
 from softway.record.audit.auditor import Auditor, Depths, auditor
 from softway.record.audit.energy_watch import ENERGIES, RECEIVED, EnergyWatch, given_back, missed, received
@@ -80,21 +81,46 @@ class Watcher:
                 self._energy.looked()
             before = time
 
-    def watched(self, steps: Iterator[Step]) -> Iterator[Step]:
-        """Steps with the findings among their events, and the gaps that were seen in their certificates."""
-        for step in steps:
-            energies = (getattr(step.ledger, name) for name in ENERGIES)
-            gained = self._energy.took(step.slab.end, *energies, received=received(step.ledger))
-            found = list(given_back(self._energy, gained, step.slab.end, step.slab.span))
-            seen = step.certificate
-            if self._counted(step.slab.start, step.slab.end):
-                depths = self._depths(step)
-                seen = replace(seen, gap_nodes=0.0 - depths.nodes, gap_between=0.0 - depths.between)
-                found += [*depths.findings, *self._balanced(step), *self._pushed(step)]
-            told = {(event.kind, event.contact) for event in step.events}
-            found = [event for event in found if (event.kind, event.contact) not in told]
-            changed = bool(found) or seen is not step.certificate
-            yield replace(step, certificate=seen, events=(*step.events, *found)) if changed else step
+    def watched(self, steps: Iterator[Step | StepGroup]) -> Iterator[Step | StepGroup]:
+        """Steps with the findings among their events, and the gaps that were seen in their certificates.
+
+        Groups have no frames, at which geometry and balances are audited.
+        """
+        for one in steps:
+            if isinstance(one, StepGroup):
+                yield from self._group(one)
+            else:
+                yield self._step(one)
+
+    def _step(self, step: Step) -> Step:
+        energies = (getattr(step.ledger, name) for name in ENERGIES)
+        gained = self._energy.took(step.slab.end, *energies, received=received(step.ledger))
+        found = list(given_back(self._energy, gained, step.slab.end, step.slab.span))
+        seen = step.certificate
+        if self._counted(step.slab.start, step.slab.end):
+            depths = self._depths(step)
+            seen = replace(seen, gap_nodes=0.0 - depths.nodes, gap_between=0.0 - depths.between)
+            found += [*depths.findings, *self._balanced(step), *self._pushed(step)]
+        told = {(event.kind, event.contact) for event in step.events}
+        found = [event for event in found if (event.kind, event.contact) not in told]
+        changed = bool(found) or seen is not step.certificate
+        return replace(step, certificate=seen, events=(*step.events, *found)) if changed else step
+
+    def _group(self, group: StepGroup) -> Iterator[Step | StepGroup]:
+        """Parts of a group between its slabs with findings, which become steps."""
+        slab, ledger, begin = group.slab, group.ledger, 0
+        columns = [np.broadcast_to(getattr(ledger, name), len(group)).tolist() for name in ENERGIES]
+        times = zip(np.ravel(slab.end).tolist(), np.ravel(slab.span).tolist(), strict=True)
+        for k, ((end, span), energies) in enumerate(zip(times, zip(*columns, strict=True), strict=True)):
+            gained = self._energy.took(end, *energies)
+            found = tuple(given_back(self._energy, gained, end, span))
+            if found:
+                yield from (group.part(begin, k),) if k > begin else ()
+                yield replace(group.step(k), events=found)
+                begin = k + 1
+        self._slabs += len(group)
+        if begin < len(group):
+            yield group.part(begin, len(group)) if begin else group
 
     def _geometry_of(self, start: RunStart) -> "_Geometry":
         """Solids on the meshes of a start, and their geometric audit."""

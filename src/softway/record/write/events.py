@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from softway.marching.results.step import Event, Ledger, Step
+from softway.marching.slab.step_group import StepGroup
 from softway.record.storage import table
 from softway.record.storage.table import Lines
 from softway.record.write.recorder import RunStart
@@ -62,6 +63,9 @@ class Events:
         if ledger.heat is None or contact not in self.passing:
             return nan
         return float(ledger.heat.through[self.passing.index(contact)])
+
+    def take_group(self, group: StepGroup) -> None:
+        """Nothing: no events are in these slabs."""
 
     @property
     def mark(self) -> int:

@@ -10,6 +10,7 @@ import numpy as np
 from softway.arrays import Array
 from softway.bodies.solid import Tool
 from softway.marching.results.step import Step
+from softway.marching.slab.step_group import StepGroup
 from softway.model.scene import Scene, State
 from softway.record.write.grid.grid_layout import Layout, components, layout, von_mises
 from softway.record.write.grid.grid_series import GridFrame, GridSeries, continue_series, create_series
@@ -43,6 +44,9 @@ class Frames:
         now = self.opening.of(step)
         cells = self.layout if now is self.opening else layout(now.meshes, now.touching)
         self.series.write(_frame(cells, now, step.after), cells)
+
+    def take_group(self, group: StepGroup) -> None:
+        """Nothing: no frame is due at the ends of these slabs."""
 
     @property
     def mark(self) -> int:

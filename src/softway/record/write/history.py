@@ -2,8 +2,12 @@
 
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from softway.marching.results.step import Step
+from softway.marching.slab.step_group import StepGroup
 from softway.record.storage import table
 from softway.record.storage.table import Lines
 from softway.record.write.history_columns import Column, columns
@@ -28,6 +32,18 @@ class History:
             motion, reactions = step.states.motion, step.reactions
             values += [r.value(motion, reactions) for r in self.opening.of(step).readings]
         self.lines.write((self.line % tuple(values)).encode())
+
+    def take_group(self, group: StepGroup) -> None:
+        """Write the lines of slabs that were compiled together."""
+        count = len(group)
+        values: list[Any] = [column.value(group) for column in self.columns]
+        if self.opening.readings:
+            motion, reactions = group.motion, group.reactions
+            values += [r.values(motion, reactions) for r in self.opening.readings]
+        rows = np.empty((count, len(values)))
+        for k, value in enumerate(values):
+            rows[:, k] = value
+        self.lines.write((self.line * count % tuple(rows.ravel().tolist())).encode())
 
     @property
     def mark(self) -> int:

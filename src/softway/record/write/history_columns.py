@@ -4,8 +4,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from math import nan
 from operator import attrgetter
+from typing import Any
 
-from softway.marching.results.step import Ledger, Step
+from softway.marching.results.step import Ledger
 from softway.record.storage import table
 from softway.record.write.recorder import RunStart
 
@@ -24,20 +25,20 @@ class Column:
     name, unit
         Name and unit of the values.
     value
-        Value after a step.
+        Value after a step, or the values (k,) after k steps of a group; one value if all are the same.
     initial
         Value in the line of the initial state.
     """
 
     name: str
     unit: str
-    value: Callable[[Step], float]
+    value: Callable[[Any], Any]
     initial: Callable[[RunStart], float] = nothing
 
 
 def of_ledger(name: str, unit: str, read: Callable[[Ledger], float]) -> Column:
     """Column of a number of the ledger."""
-    return Column(name, unit, lambda step: float(read(step.ledger)), lambda start: float(read(start.ledger)))
+    return Column(name, unit, lambda step: read(step.ledger), lambda start: float(read(start.ledger)))
 
 
 def of_energy(name: str) -> Column:
@@ -64,7 +65,7 @@ def _of_tie(label: str, name: str) -> Callable[[Ledger], float]:
     return lambda ledger: float(getattr(ledger.ties[label], name))
 
 
-def _number(label: str, name: str) -> tuple[Callable[[Step], float], Callable[[RunStart], float]]:
+def _number(label: str, name: str) -> tuple[Callable[[Any], Any], Callable[[RunStart], float]]:
     """Number of a contact after a step, and at the start of a run."""
     read = attrgetter(name)
     return lambda step: read(step.ledger.contacts[label]), lambda start: read(start.ledger.contacts[label])

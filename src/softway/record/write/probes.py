@@ -109,34 +109,42 @@ class Reading:
 
     def value(self, state: Motion, reactions: Mapping[str, Array]) -> float:
         """Value at ``state``; a reaction that has not been computed is ``nan``."""
+        return float(self.values(state, reactions))
+
+    def values(self, motion: Motion, reactions: Mapping[str, Array]) -> Array:
+        """Value () of fields (n, d), or values (s,) of s slabs with fields (s, n, d)."""
         match self.quantity:
             case "temperature":
-                return float(self._mean(state.fields["temperature"][self.body][self.nodes]).mean())
+                return self._mean(self._at(motion.fields["temperature"])).mean(axis=-1)
             case "reaction":
                 if self.body not in reactions:
-                    return float("nan")
-                vector = reactions[self.body][self.nodes].sum(axis=0)
+                    return np.asarray(np.nan)
+                vector = self._at(reactions).sum(axis=-2)
             case "velocity":
-                vector = self._mean(state.velocity[self.body][self.nodes])
+                vector = self._mean(self._at(motion.velocity))
             case "displacement" if self.origin is not None:
-                vector = np.asarray(self._place(state) - self.origin)
+                vector = np.asarray(self._place(motion) - self.origin)
             case "displacement":
-                vector = self._mean(state.displacement[self.body][self.nodes])
+                vector = self._mean(self._at(motion.displacement))
             case _:
-                vector = self._place(state)
+                vector = self._place(motion)
         if self.component == "norm":
-            return float(np.linalg.norm(vector))
-        return float(vector["xyz".index(self.component)])
+            return np.asarray(np.linalg.norm(vector, axis=-1))
+        return np.asarray(vector[..., "xyz".index(self.component)])
 
-    def _place(self, state: Motion) -> Array:
-        """Mean place (d,) [m]."""
-        return self._mean(self.reference + state.displacement[self.body][self.nodes])
+    def _place(self, motion: Motion) -> Array:
+        """Mean place (..., d) [m]."""
+        return self._mean(self.reference + self._at(motion.displacement))
+
+    def _at(self, fields: Mapping[str, Array]) -> Array:
+        """Values (..., k, d) of a field at the nodes."""
+        return fields[self.body][..., self.nodes, :]
 
     def _mean(self, values: Array) -> Array:
-        """Mean (...) of values at the nodes (k, ...)."""
+        """Mean (..., d) of values at the nodes (..., k, d)."""
         if self.weights is not None:
             return np.asarray(self.weights @ values)
-        return np.asarray(values[0] if len(values) == 1 else values.mean(axis=0))
+        return np.asarray(values[..., 0, :] if values.shape[-2] == 1 else values.mean(axis=-2))
 
 
 def readings(

@@ -9,6 +9,7 @@ from math import inf
 from softway.heat.march import HeatStep
 from softway.marching.results.step import Step
 from softway.marching.results.trying import Trying
+from softway.marching.slab.step_group import StepGroup
 from softway.mechanisms.march import MechanismStep
 from softway.piles.march import PileStep
 
@@ -107,6 +108,19 @@ MechanismWatch = Callable[[MechanismProgress], None]
 """Callback after every recorded step of a mechanism or a pile, as :data:`Watch`."""
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class Occasional:
+    """Watch that is called once for slabs that were compiled together, after the last of them: a step of each would
+    take longer than the slab.
+    """
+
+    watch: Callable[[Progress | MechanismProgress], None]
+
+    def __call__(self, progress: Progress | MechanismProgress) -> None:
+        """Pass the progress on."""
+        self.watch(progress)
+
+
 Tell = Callable[[str], None]
 """Function that shows a line."""
 
@@ -196,8 +210,11 @@ class Meter:
     def __init__(self, watch: Watch, until: float, start: float, slabs: int = 0) -> None:
         self._watch, self._until, self._slabs, self._pace = watch, until, slabs, Pace(start)
 
-    def took(self, step: Step) -> None:
-        """Take a recorded slab and report the progress."""
+    def took(self, one: Step | StepGroup) -> None:
+        """Take a recorded slab, or group of slabs, and report the progress after it."""
+        if isinstance(one, StepGroup):
+            self._slabs, step = self._slabs + len(one), one.step(len(one) - 1)
+        else:
+            self._slabs, step = self._slabs + 1, one
         now, pace = self._pace.at(step.slab.end)
-        self._slabs += 1
         self._watch(Progress(step=step, until=self._until, slabs=self._slabs, wall=now, pace=pace))

@@ -1,19 +1,24 @@
 """Interface of the recorders, and the data that they receive at the start of a run."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
-from math import floor
 from pathlib import Path
-from typing import Protocol
+from typing import Any, Protocol
+
+import numpy as np
 
 from softway.arrays import Array, IntArray
 from softway.marching.audit.balances import Balances, Pushed
 from softway.marching.results.step import Ledger, Step
 from softway.marching.results.step_states import Motion
+from softway.marching.slab.step_group import StepGroup
 from softway.meshes.mesh import Mesh
 from softway.model.field import Field
 from softway.model.model import Model
 from softway.model.scene import Scene, State
+
+Times = float | Array
+"""A time, or several [s]."""
 
 
 class Readable(Protocol):
@@ -31,6 +36,10 @@ class Readable(Protocol):
 
     def value(self, state: Motion, reactions: Mapping[str, Array]) -> float:
         """Value at ``state``, of which a motion is enough."""
+        ...
+
+    def values(self, motion: Motion, reactions: Mapping[str, Array]) -> Array:
+        """Values (k,) of k slabs, whose fields are (k, n, d)."""
         ...
 
 
@@ -111,25 +120,40 @@ class RunStart:
 
     def frame_due(self, before: float, after: float) -> bool:
         """True if a slab between two times [s] passes an instant at which a frame is stored, or reaches the end."""
-        return frame_due(self.fields_every, self.until, before, after)
+        return bool(frame_due(self.fields_every, self.until, before, after))
+
+    def parts(self, group: StepGroup) -> Iterator[Step | StepGroup]:
+        """Slabs that were compiled together: a step of each at whose end a frame is stored, and groups between them."""
+        slab, begin = group.slab, 0
+        for k in np.flatnonzero(frame_due(self.fields_every, self.until, slab.start, slab.end)).tolist():
+            if k > begin:
+                yield group.part(begin, k)
+            yield group.step(k)
+            begin = k + 1
+        if begin < len(group):
+            yield group.part(begin, len(group))
 
     def ended(self, time: float) -> bool:
         """True at the end of the march, up to rounding."""
-        return _ended(self.until, time)
+        return bool(_ended(self.until, time))
 
 
-def frame_due(every: float, until: float, before: float, after: float) -> bool:
+def frame_due(every: float, until: float, before: Times, after: Times) -> Any:
     """True if a slab between two times [s] passes a multiple of ``every``, or reaches the end ``until`` of the march.
+
+    An array for arrays of times.
 
     Examples
     --------
-    >>> frame_due(1.0, 9.5, 0.5, 0.9), frame_due(1.0, 9.5, 0.9, 1.0), frame_due(1.0, 9.5, 9.1, 9.5)
-    (False, True, True)
+    >>> [bool(frame_due(1.0, 9.5, *times)) for times in ((0.5, 0.9), (0.9, 1.0), (9.1, 9.5))]
+    [False, True, True]
+    >>> frame_due(1.0, 9.5, np.array([0.5, 0.9]), np.array([0.9, 1.0])).tolist()
+    [False, True]
     """
-    return floor(after / every + 1e-9) > floor(before / every + 1e-9) or _ended(until, after)
+    return (np.floor(after / every + 1e-9) > np.floor(before / every + 1e-9)) | _ended(until, after)
 
 
-def _ended(until: float, time: float) -> bool:
+def _ended(until: float, time: Times) -> Any:
     """True at the end of the march, up to rounding."""
     return time >= until * (1.0 - 1e-12)
 
@@ -139,6 +163,10 @@ class Recorder(Protocol):
 
     def take(self, step: Step) -> None:
         """Record one accepted slab."""
+        ...
+
+    def take_group(self, group: StepGroup) -> None:
+        """Record slabs that were compiled together: nothing happens in them, and no frame is due at their ends."""
         ...
 
     @property

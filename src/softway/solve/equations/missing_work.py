@@ -63,7 +63,7 @@ def _works(model: Model, ends: EndForces) -> Array:
     if isinstance(model.space, LocalSpace):
         out, nodes = np.empty((len(model.parts), WORKS)), [s.start for s in model.space.solids]
         fields = (model.load_before, model.load, ends.u0, ends.u1, ends.f0, ends.f1, ends.mean)
-        l0, l1, u0, u1, f0, f1, mean = (np.ascontiguousarray(f, float).ravel() for f in fields)
+        l0, l1, u0, u1, f0, f1, mean = (np.require(f, float, ["C", "W"]).ravel() for f in fields)  # one kind of array
         first, heavy = np.array([*nodes, len(model.massive)]), np.repeat(model.massive, model.shape[1])
         works(first, model.shape[1], heavy, (l0, l1), u0, u1, (f0, f1), mean, out)
         return out.T

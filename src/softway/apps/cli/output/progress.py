@@ -22,7 +22,7 @@ from rich.progress import Progress as Display
 from softway.heat.march import HeatStep
 from softway.mechanisms.march import MechanismStep
 from softway.piles.march import PileStep
-from softway.record.write.progress import MechanismProgress, Progress, Tell
+from softway.record.write.progress import MechanismProgress, Occasional, Progress, Tell
 from softway.scenario.checks.check import Checked
 from softway.scenario.run_rigid import CheckedRigid
 
@@ -103,7 +103,7 @@ class Watch:
 
 
 @contextmanager
-def progress_of(checked: Checked | CheckedRigid, console: Console) -> Iterator[Watch | None]:
+def progress_of(checked: Checked | CheckedRigid, console: Console) -> Iterator[Occasional | None]:
     """Function to call after each step; ``None`` without an interactive terminal."""
     if console.quiet or not console.is_terminal:
         yield None
@@ -111,7 +111,7 @@ def progress_of(checked: Checked | CheckedRigid, console: Console) -> Iterator[W
     display = Display(*COLUMNS, console=console, transient=True)
     task = display.add_task(FIRST, total=checked.scenario.time.end, left="-", error="-", closed=0, span="")
     with delayed(display):
-        yield Watch(display=display, task=task)
+        yield Occasional(Watch(display=display, task=task))
 
 
 def teller(console: Console) -> Tell:

@@ -4,10 +4,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+import numpy as np
+
 from softway.arrays import Array
 from softway.bodies.prescribed_motion import PlacedShape, Pose
 from softway.marching.results.step import Step
 from softway.marching.results.step_states import Motion
+from softway.marching.slab.step_group import StepGroup
 from softway.mechanisms.march import BodyState
 from softway.mechanisms.members.rigid import Rigid
 from softway.model.scene import State
@@ -29,6 +32,11 @@ class RigidTable:
     def take(self, step: Step) -> None:
         """Write the places, rotations and velocities of the bodies after one slab."""
         self.lines.write(_cells(step.after))
+
+    def take_group(self, group: StepGroup) -> None:
+        """Write the motion after each of some slabs."""
+        for step in group.steps():
+            self.take(step)
 
     @property
     def mark(self) -> int:
@@ -78,6 +86,10 @@ class RigidReading:
     def value(self, state: Motion, reactions: Mapping[str, Array]) -> float:
         """Value at ``state``."""
         return self.of.at(state.rigid)
+
+    def values(self, motion: Motion, reactions: Mapping[str, Array]) -> Array:
+        """Value of a single slab (1,): slabs with rigid bodies are not compiled."""
+        return np.array([self.value(motion, reactions)])
 
 
 def pose(body: Rigid, state: BodyState) -> Pose:
