@@ -12,7 +12,7 @@ from softway.errors import InputError
 from softway.marching.rules.slab_rule import Method
 from softway.model.model import Model
 from softway.solve.methods.fixed_point import FixedPoint
-from softway.solve.operators import ConjugateGradients, MatrixFree
+from softway.solve.operators import ConjugateGradients, MatrixFree, Multigrid
 
 REMEDY = "a run on one rank, without --ranks"
 
@@ -66,11 +66,11 @@ def _of_contacts(model: Model) -> Iterator[tuple[str, str]]:
         yield "contacts[0].timing", "another rule than Energy, and its filter calm"
     contacts = model.contacts
     if not all(served(m) for m in (*contacts.methods, *contacts.overlap_methods)):
-        yield "contacts", "surfaces each of which may touch any other, as with between = \"all\""
+        yield "contacts", 'surfaces each of which may touch any other, as with between = "all"'
 
 
 def _of_method(method: Method) -> Iterator[tuple[str, str]]:
     if not isinstance(method, FixedPoint):
         yield "solver", f"{type(method).__name__}"
-    elif method.operator != "auto" and not isinstance(method.operator, MatrixFree | ConjugateGradients):
+    elif method.operator != "auto" and not isinstance(method.operator, MatrixFree | ConjugateGradients | Multigrid):
         yield "solver.operator", f"{type(method.operator).__name__}"

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from softway.cluster.admitted import require_several
-from softway.cluster.own_gradients import method_of_ranks
+from softway.cluster.own_gradients import method_of_ranks, method_of_whole
 from softway.cluster.rank_model import held_by, rank_model
 from softway.cluster.rank_state import RankNumbers, on_all, on_rank, rank_numbers
 from softway.errors import Cancel
@@ -47,15 +47,17 @@ def march_on(
         On all ranks, as for :func:`~softway.marching.march.march`.
     """
     require_several(model, settings.method, ranks.size)
-    prepared = prepare(model, settings, state)
+    prepared = prepare(model, replace(settings, method=method_of_whole(settings.method)), state)
     held = held_by(model, ranks)
     local = rank_model(model, held, ranks)
     asked = None if not ranks.told(cancel is not None) else lambda: bool(ranks.told(cancel is not None and cancel()))
     own = stepper(local, method_of_ranks(settings.method), settings.weight, asked, None if ranks.rank else trying)
     own = replace(own, ends=prepared.stepper.ends)
     numbers = rank_numbers(model, held)
-    before = split_states(model, prepared.march_state.state)
-    for step in slabs(own, on_rank(prepared.march_state, numbers)):
+    start = prepared.march_state
+    start = replace(start, settings=replace(start.settings, method=settings.method))
+    before = split_states(model, start.state)
+    for step in slabs(own, on_rank(start, numbers)):
         whole = _on_whole(step, model, before, numbers, ranks)
         before = before if whole is None else whole.after
         yield whole
