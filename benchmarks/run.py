@@ -17,7 +17,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from time import perf_counter
 
-from groups import accuracy, adapted, blocks, cube, heated, methods, parts, piles
+from groups import accuracy, adapted, blocks, cube, heated, methods, parts, piles, rates
 from groups.asked import Asked
 from processes.apart import Failed
 from record.figures import Figure, read, regressions, unmatched, written
@@ -45,6 +45,8 @@ GROUPS: dict[str, Group] = {
     "factor": parts.factors,
     "contact": parts.contact,
     "unmet": blocks.unmet,
+    "rates": rates.rates,
+    "dense": rates.dense,
     "pressed": blocks.pressed,
     "blocks": blocks.blocks,
     "slab": parts.slabs,

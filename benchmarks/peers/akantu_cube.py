@@ -6,7 +6,7 @@ from pathlib import Path
 
 import akantu as aka
 import numpy as np
-from cube import DENSITY, NU, SPEED, Clock, E, chosen, lattice, slab, tetrahedra
+from cube import DENSITY, NU, Clock, E, chosen, lattice, slab, tetrahedra
 
 MATERIALS = """
 material elastic [
@@ -87,15 +87,18 @@ def main():
     step = SAFETY * solid.getStableTimeStep()
     both.setTimeStep(step)
     velocity, shift = solid.getVelocity(), solid.getDisplacement()
-    velocity[:count, 2] = -SPEED
+    velocity[:count, 2] = -ask.speed
     points, cubes = lattice(ask.cells)
     height, cells = points[:, 2], tetrahedra(cubes)
     weights = np.bincount(cells.ravel(), minlength=count) * DENSITY / (4 * len(cells))
-    before = -SPEED
+    solid.getExternalForce()[:count, 2] = -ask.load * weights
+    before = -ask.speed
     for k in range(round(ask.end / step)):
         clock.step(both.solveStep)
         momentum = weights @ velocity[:count, 2]
-        touching = (height + shift[:count, 2]).min() < -ask.gap - 1e-9
+        lowest = (height + shift[:count, 2]).min()
+        clock.sunk(-ask.gap - lowest)
+        touching = lowest < -ask.gap - 1e-9
         clock.note((k + 1) * step, touching, momentum, (momentum - before) / step)
         before = momentum
     clock.told("Akantu", getattr(aka, "__version__", "5"), 3 * count, velocity[:count, 2].mean(), None)

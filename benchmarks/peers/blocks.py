@@ -9,7 +9,7 @@ penalty are those of the cube (``cube.py``).
 import argparse
 
 import numpy as np
-from cube import FACES, PENALTY, STEP, lattice
+from cube import FACES, PENALTY, SPEED, STEP, lattice
 
 END = 0.036
 SMALL, CROWN, ASIDE, GAP = 0.9, 0.04, (0.043, 0.061), 0.01
@@ -45,6 +45,7 @@ def chosen(description):
     options.add_argument("--cells", type=int, default=7, help="cells along each edge of the upper block")
     options.add_argument("--end", type=float, default=END, help="time at which the run ends")
     options.add_argument("--step", type=float, default=STEP, help="length of a step")
+    options.add_argument("--speed", type=float, default=SPEED, help="speed at the start of the upper block")
     options.add_argument("--penalty", type=float, default=PENALTY, help="stiffness of the contact per unit of area")
     options.add_argument("--order", type=int, default=4, help="order of integration of the contact")
     options.add_argument("--radius", type=float, help="spectral radius of generalised-alpha; trapezoidal without")

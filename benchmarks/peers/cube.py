@@ -53,6 +53,8 @@ def chosen(description, step=STEP):
     options = argparse.ArgumentParser(description=description)
     options.add_argument("--cells", type=int, default=9, help="cells along each edge")
     options.add_argument("--gap", type=float, default=0.05, help="distance of the plane")
+    options.add_argument("--speed", type=float, default=SPEED, help="speed at the start, towards the plane")
+    options.add_argument("--load", type=float, default=0.0, help="acceleration towards the plane by a weight")
     options.add_argument("--end", type=float, default=END, help="time at which the run ends")
     options.add_argument("--step", type=float, default=step, help="length of a step, where the peer does not choose it")
     options.add_argument("--penalty", type=float, default=PENALTY, help="stiffness of the contact per unit of area")
@@ -112,6 +114,7 @@ class Clock:
     time: list = field(default_factory=list)
     momentum: list = field(default_factory=list)
     force: list = field(default_factory=list)
+    depth: float | None = None
     start: tuple = field(default_factory=lambda: now())
 
     def step(self, action):
@@ -128,6 +131,10 @@ class Clock:
         self.momentum.append(momentum)
         self.force.append(force)
 
+    def sunk(self, depth):
+        """Note how deep the cube is in the plane; the deepest place counts."""
+        self.depth = max(self.depth or 0.0, float(depth))
+
     def told(self, peer, version, unknowns, velocity, energy):
         """Print the line: ``velocity`` is the mean one along z at the end, ``energy`` that over the first."""
         end = now()
@@ -142,6 +149,7 @@ class Clock:
             "time": [float(f"{t:.8g}") for t in self.time],
             "momentum": [float(f"{p:.8g}") for p in self.momentum],
             "force": [float(f"{f:.6g}") for f in self.force],
+            "depth": self.depth,
             "velocity": float(velocity),
             "energy": None if energy is None else float(energy),
         }

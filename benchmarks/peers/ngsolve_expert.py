@@ -5,7 +5,7 @@ With ``--mass`` the inertia is that of a given matrix, say one in which the node
 
 import ngsolve as ng
 import numpy as np
-from cube import ENERGY, Clock, chosen, lattice
+from cube import DENSITY, ENERGY, Clock, chosen, lattice
 from ngsolve_cube import meshed
 from ngsolve_steps import Motion, density, inertia
 
@@ -32,6 +32,8 @@ def main():
     form = ng.BilinearForm(space, symmetric=True)
     form += ng.Variation(density(u).Compile() * ng.dx)
     form += ng.Variation(ng.IfPos(depth, ask.penalty / 2 * depth * depth, 0).Compile() * ng.ds("lower"))
+    if ask.load:
+        form += ng.Variation((DENSITY * ask.load * u[2]).Compile() * ng.dx)
     mass = inertia(space, ask.mass)
     vertical = 2 * (space.ndof // 3) + np.arange(count)
     motion = Motion(ask, form, mass, vertical, tangent, KEPT)
@@ -42,6 +44,7 @@ def main():
         clock.step(motion.step)
         height = (lower + motion.place.FV().NumPy()[vertical]).min()
         force = ng.Integrate(pressing * ng.ds("lower"), mesh) if height < -ask.gap else 0.0
+        clock.sunk(-ask.gap - height)
         clock.note((k + 1) * ask.step, height < -ask.gap - 1e-9, motion.momentum, force)
     kinetic = 0.5 * ng.InnerProduct(motion.velocity, (mass * motion.velocity).Evaluate())
     stored = ng.Integrate(density(motion.shift) * ng.dx, mesh)

@@ -2,7 +2,7 @@
 
 import ngsolve as ng
 import numpy as np
-from cube import DENSITY, LAMBDA, MU, RESIDUAL, SPEED, Newmark, in_pattern
+from cube import DENSITY, LAMBDA, MU, RESIDUAL, Newmark, in_pattern
 
 
 def density(w):
@@ -25,7 +25,7 @@ def inertia(space, file):
 
 
 class Motion:
-    """Motion in steps as asked, from rest but for the unknowns ``thrown``, which have the velocity ``-SPEED``.
+    """Motion in steps as asked, from rest but for the unknowns ``thrown``, which have the velocity ``-ask.speed``.
 
     ``tangent(form, share, mass, scale)`` is the matrix of an iteration, ``share`` of the form and ``scale`` of the
     mass.  A factor is kept while an iteration reduces the residual to ``kept`` of what it was.
@@ -37,7 +37,7 @@ class Motion:
         self.shift = ng.GridFunction(form.space)
         self.place, self.older, self.velocity, self.acceleration, self.before = (self._zero() for _ in range(5))
         self.predicted, self.end, self.inner, self.rest, self.pull = (self._zero() for _ in range(5))
-        self.velocity.FV().NumPy()[thrown] = -SPEED
+        self.velocity.FV().NumPy()[thrown] = -ask.speed
         self.older.data = -self.h * self.velocity
         self.ones, self.weights = self._zero(), self._zero()
         self.ones.FV().NumPy()[thrown] = 1.0

@@ -38,6 +38,13 @@ THROWN = (
 )
 PARTS, METHODS = "benchmarks/groups/parts.py", "benchmarks/groups/methods.py"
 BLOCKS = "benchmarks/groups/blocks.py"
+RATES = (
+    "benchmarks/groups/rates.py",
+    "benchmarks/processes/contact_counts.py",
+    "benchmarks/processes/contact_rates.py",
+    "benchmarks/groups/peers.py",
+    "benchmarks/peers",
+)
 BENCHES = {
     "start": (METHODS,),
     "drop": THROWN,
@@ -51,6 +58,8 @@ BENCHES = {
     "factor": (PARTS, "benchmarks/parts/bench_factor.py"),
     "contact": (PARTS, "benchmarks/parts/bench_contact.py"),
     "unmet": (BLOCKS, "benchmarks/parts/bench_open_contact.py"),
+    "rates": RATES,
+    "dense": RATES[:3],
     "pressed": (BLOCKS, "benchmarks/parts/bench_two_bodies.py"),
     "blocks": (
         BLOCKS,

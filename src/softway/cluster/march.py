@@ -5,9 +5,10 @@ from dataclasses import replace
 
 import numpy as np
 
-from softway.cluster.admitted import method_of_ranks, require_several
+from softway.cluster.admitted import require_several
+from softway.cluster.own_gradients import method_of_ranks, method_of_whole
 from softway.cluster.rank_model import held_by, rank_model
-from softway.cluster.rank_state import on_all, on_rank
+from softway.cluster.rank_state import RankNumbers, on_all, on_rank, rank_numbers
 from softway.errors import Cancel
 from softway.marching.results.step import Step
 from softway.marching.results.step_states import KnownStates
@@ -20,7 +21,6 @@ from softway.marching.state.model_state import split_states
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.ranks.interface import Ranks
-from softway.ranks.partition import Holding
 
 
 def march_on(
@@ -47,23 +47,26 @@ def march_on(
         On all ranks, as for :func:`~softway.marching.march.march`.
     """
     require_several(model, settings.method, ranks.size)
-    prepared = prepare(model, settings, state)
+    prepared = prepare(model, replace(settings, method=method_of_whole(settings.method)), state)
     held = held_by(model, ranks)
     local = rank_model(model, held, ranks)
     asked = None if not ranks.told(cancel is not None) else lambda: bool(ranks.told(cancel is not None and cancel()))
     own = stepper(local, method_of_ranks(settings.method), settings.weight, asked, None if ranks.rank else trying)
     own = replace(own, ends=prepared.stepper.ends)
-    before = split_states(model, prepared.march_state.state)
-    for step in slabs(own, on_rank(prepared.march_state, held)):
-        whole = _on_whole(step, model, before, held, ranks)
+    numbers = rank_numbers(model, held)
+    start = prepared.march_state
+    start = replace(start, settings=replace(start.settings, method=settings.method))
+    before = split_states(model, start.state)
+    for step in slabs(own, on_rank(start, numbers)):
+        whole = _on_whole(step, model, before, numbers, ranks)
         before = before if whole is None else whole.after
         yield whole
 
 
-def _on_whole(step: Step, model: Model, before: State, held: Holding, ranks: Ranks) -> Step | None:
+def _on_whole(step: Step, model: Model, before: State, numbers: RankNumbers, ranks: Ranks) -> Step | None:
     """Step of the whole model on rank 0; None on the others."""
-    (name,) = step.reactions
-    found = on_all(step.march_state, held, ranks, np.asarray(step.reactions[name]))
+    reactions = np.concatenate([step.reactions[part.name] for part in model.parts])
+    found = on_all(step.march_state, numbers, ranks, reactions)
     if found is None:
         return None
     march_state, support = found
@@ -73,5 +76,6 @@ def _on_whole(step: Step, model: Model, before: State, held: Holding, ranks: Ran
         reactions=model.split(support),
         march_state=march_state,
     )
-    events = tuple(replace(e, node=int(held.nodes[e.node])) if e.node >= 0 else e for e in step.events)
+    nodes = numbers.held.nodes
+    events = tuple(replace(e, node=int(nodes[e.node])) if e.node >= 0 else e for e in step.events)
     return replace(step, model=model, events=events, states=states)

@@ -3,8 +3,10 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+import numpy as np
+
 from softway.arrays import Array, IntArray
-from softway.meshes.mesh import Mesh
+from softway.bodies.discretised import DiscreteSolid
 from softway.ranks.partition import Holding
 
 
@@ -35,12 +37,20 @@ class RankMesh:
         return self.shortest
 
 
-def rank_mesh(mesh: Mesh, held: Holding) -> RankMesh:
-    """Mesh of what a rank holds of a body with cells of one type."""
+def local_nodes(nodes: slice, held: Holding) -> slice:
+    """Local nodes of a solid with these nodes of the model."""
+    first, last = np.searchsorted(held.nodes, [nodes.start, nodes.stop])
+    return slice(int(first), int(last))
+
+
+def rank_mesh(part: DiscreteSolid, number: int, held: Holding) -> RankMesh:
+    """Mesh of what a rank holds of the solid with this number, which has cells of one type."""
+    mesh, at = part.mesh, part.nodes.start
     ((kind, cells),) = mesh.blocks.items()
+    nodes = held.nodes[local_nodes(part.nodes, held)] - at
     return RankMesh(
-        points=mesh.points[held.nodes],
-        blocks={kind: held.local(cells[held.cells])},
+        points=mesh.points[nodes],
+        blocks={kind: np.searchsorted(nodes, cells[held.cells[number]])},
         cell_dim=mesh.cell_dim,
         shortest=mesh.edge(),
     )

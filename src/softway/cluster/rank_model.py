@@ -10,10 +10,10 @@ from softway.bodies.assembled.nodal_loads import DeadLoads
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.dof_map import NodalDofs
 from softway.bodies.internal_force.body_force import BodyForce
-from softway.cluster.admitted import of_kernels
 from softway.cluster.own_rows import columns, own_rows
 from softway.cluster.rank_force import rank_force
-from softway.cluster.rank_mesh import rank_mesh
+from softway.cluster.rank_contacts import rank_contacts, rank_friction
+from softway.cluster.rank_mesh import local_nodes, rank_mesh
 from softway.contact.contact_set import ContactSet
 from softway.contact.node_to_surface.node_to_tool import NodeToTool
 from softway.contact.tangential_rows import TangentialRows
@@ -26,11 +26,13 @@ from softway.ranks.space import RankSpace, Shares
 
 def held_by(model: Model, ranks: Ranks) -> Holding:
     """What a rank holds of a model: all nodes that may touch, and those of the rows of its own nodes, too."""
-    mesh = model.parts[0].mesh
-    ((_, cells),) = mesh.blocks.items()
-    owner = owners(cells, bisected(mesh.points[cells].mean(axis=1), ranks.size), model.shape[0])
-    own = np.flatnonzero(owner == ranks.rank)
-    seen = [columns(matrix, own) for matrix in (model.mass, model.follow, model.passing)]
+    own = [next(iter(part.mesh.blocks.values())) for part in model.parts]
+    cells = [some + part.nodes.start for some, part in zip(own, model.parts, strict=True)]
+    centres = np.concatenate([model.points[some].mean(axis=1) for some in cells])
+    rank_of = np.split(bisected(centres, ranks.size), np.cumsum([len(some) for some in cells])[:-1])
+    owner = owners(cells, rank_of, model.shape[0])
+    mine = np.flatnonzero(owner == ranks.rank)
+    seen = [columns(matrix, mine) for matrix in (model.mass, model.follow, model.passing)]
     return holding(ranks, cells, owner, np.concatenate([model.touchable, *seen]))
 
 
@@ -38,7 +40,7 @@ def rank_model(model: Model, held: Holding, ranks: Ranks) -> Model:
     """Model of a rank from the whole model, which has to be admitted
     (:func:`~softway.cluster.admitted.require_several`).
     """
-    nodes, (part,) = held.nodes, model.parts
+    nodes = held.nodes
     space, dofs = rank_space(model, held, ranks), NodalDofs(model.dofs.free[nodes])
     loads = DeadLoads(
         fields=tuple((ramp, f[nodes]) for ramp, f in model.loads.fields), shape=(len(nodes), model.shape[1])
@@ -48,10 +50,11 @@ def rank_model(model: Model, held: Holding, ranks: Ranks) -> Model:
     names = ("massive", "part_of", "load", "load_before", "weight", "displacement", "velocity", "edge")
     return replace(
         model,
-        parts=(_part(part, dofs, held, ranks),),
+        parts=tuple(_part(model, k, held, ranks) for k in range(len(model.parts))),
         dofs=dofs,
         loads=loads,
-        contacts=_contacts(model.contacts, held, space),
+        contacts=rank_contacts(model.contacts, held, space),
+        friction=rank_friction(model, held),
         touchable=held.local(model.touchable),
         driven=tuple((support, where[nodes]) for support, where in model.driven),
         space=space,
@@ -67,28 +70,20 @@ def rank_space(model: Model, held: Holding, ranks: Ranks) -> RankSpace:
     own = np.zeros(free.shape, bool)
     own[held.own] = True
     mine: IntArray = np.flatnonzero(own[free])
-    solids = (slice(0, n),)
+    solids = tuple(local_nodes(part.nodes, held) for part in model.parts)
     unknowns = RankSpace(ranks=ranks, shares=Shares(ranks=ranks, own=mine, length=int(free.sum())))
     shares = Shares(ranks=ranks, own=held.own, length=n)
     return RankSpace(ranks=ranks, shares=shares, solids=solids, exchange=held.exchange, unknowns=unknowns)
 
 
-def _part(part: DiscreteSolid, dofs: NodalDofs, held: Holding, ranks: Ranks) -> DiscreteSolid:
+def _part(model: Model, number: int, held: Holding, ranks: Ranks) -> DiscreteSolid:
     """Solid of a rank."""
+    part = model.parts[number]
+    nodes = local_nodes(part.nodes, held)
     return replace(
         part,
-        mesh=cast(Mesh, rank_mesh(part.mesh, held)),
-        nodes=slice(0, len(held.nodes)),
-        internal=cast(BodyForce, rank_force(of_kernels(part), part.mesh, held, ranks)),
-        dofs=dofs,
+        mesh=cast(Mesh, rank_mesh(part, number, held)),
+        nodes=nodes,
+        internal=cast(BodyForce, rank_force(part, number, held, ranks)),
+        dofs=NodalDofs(model.dofs.free[held.nodes[nodes]]),
     )
-
-
-def _contacts(contacts: ContactSet, held: Holding, space: RankSpace) -> ContactSet:
-    """Contacts of a rank: all rows, on local nodes."""
-    methods = tuple(replace(m, node=held.local(m.node)) for m in contacts.methods if isinstance(m, NodeToTool))
-    points, rows = contacts.points[held.nodes], contacts.frictionless_rows
-    if rows is not None:
-        rows = TangentialRows.none(len(contacts.contact), *points.shape)
-    found = replace(contacts, methods=methods, points=points, frictionless_rows=rows, space=space)
-    return replace(found, known=None, known_rows=None).with_known_rows()

@@ -1,5 +1,6 @@
 """Partition of cells and nodes: cells by bisection, nodes by a hash of their numbers, copies of nodes of others."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,16 +34,19 @@ def bisected(centres: Array, size: int) -> IntArray:
     return out
 
 
-def owners(cells: IntArray, rank_of: IntArray, n: int) -> IntArray:
+def owners(cells: Sequence[IntArray], rank_of: Sequence[IntArray], n: int) -> IntArray:
     """Rank (n,) that owns each node: by a hash of its number, one of the ranks whose cells (e, a) touch it.
 
     Examples
     --------
-    >>> owners(np.array([[0, 1], [1, 2]]), np.array([0, 1]), 3).tolist()
+    >>> owners([np.array([[0, 1], [1, 2]])], [np.array([0, 1])], 3).tolist()
     [0, 1, 1]
     """
-    both = np.unique(cells.astype(np.int64) * (int(rank_of.max()) + 1) + rank_of[:, None])
-    node, rank = np.divmod(both, int(rank_of.max()) + 1)
+    size = max(int(ranks.max()) for ranks in rank_of) + 1
+    pairs = [
+        (some.astype(np.int64) * size + ranks[:, None]).ravel() for some, ranks in zip(cells, rank_of, strict=True)
+    ]
+    node, rank = np.divmod(np.unique(np.concatenate(pairs)), size)
     start = np.searchsorted(node, np.arange(n))
     count = np.searchsorted(node, np.arange(n), side="right") - start
     stirred = (np.arange(n) * STIR) % 2**32 >> 16
@@ -60,17 +64,17 @@ class Holding:
     own
         (k,) local numbers of the nodes that it owns.
     cells
-        (e,) numbers of the cells that touch its own nodes, ascending.
+        (e,) numbers of the cells of each solid that touch its own nodes, ascending.
     counted
-        (e,) True for the cells whose energy it counts: those whose first node it owns.
+        (e,) of each solid, True for the cells whose energy it counts: those whose first node it owns.
     exchange
         Exchange of the nodes with the other ranks.
     """
 
     nodes: IntArray
     own: IntArray
-    cells: IntArray
-    counted: BoolArray
+    cells: tuple[IntArray, ...]
+    counted: tuple[BoolArray, ...]
     exchange: Exchange
 
     def local(self, numbers: IntArray) -> IntArray:
@@ -78,19 +82,20 @@ class Holding:
         return np.searchsorted(self.nodes, numbers)
 
 
-def holding(ranks: Ranks, cells: IntArray, owner: IntArray, seen: IntArray) -> Holding:
-    """What a rank holds of a model with the ``cells`` (e, a), whose nodes the ranks ``owner`` (n,) own.
+def holding(ranks: Ranks, cells: Sequence[IntArray], owner: IntArray, seen: IntArray) -> Holding:
+    """What a rank holds of a model with the ``cells`` (e, a) of each solid, whose nodes the ranks ``owner`` (n,) own.
 
     ``seen`` are nodes that it looks at besides those of its cells.
     """
     mine = owner == ranks.rank
-    here = np.flatnonzero(mine[cells].any(axis=1))
-    nodes = np.unique(np.concatenate([np.flatnonzero(mine), cells[here].ravel(), seen]))
+    here = tuple(np.flatnonzero(mine[some].any(axis=1)) for some in cells)
+    around = [some[own].ravel() for some, own in zip(cells, here, strict=True)]
+    nodes = np.unique(np.concatenate([np.flatnonzero(mine), *around, seen]))
     return Holding(
         nodes=nodes,
         own=np.flatnonzero(mine[nodes]),
         cells=here,
-        counted=mine[cells[here, 0]],
+        counted=tuple(mine[some[own, 0]] for some, own in zip(cells, here, strict=True)),
         exchange=_exchange(ranks, nodes, owner[nodes]),
     )
 

@@ -15,13 +15,13 @@ def partitioned() -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     mesh = sw.meshes.Box(size=(2.0, 1.0, 1.0), cells=(8, 4, 5)).build()
     cells = mesh.blocks["hex8"]
     rank = bisected(mesh.points[cells].mean(axis=1), SIZE)
-    return cells, rank, owners(cells, rank, mesh.n_nodes)
+    return cells, rank, owners([cells], [rank], mesh.n_nodes)
 
 
 def held() -> list[Holding]:
     """What each rank holds."""
     cells, _, owner = partitioned()
-    return in_threads(SIZE, lambda ranks: holding(ranks, cells, owner, np.array([0, len(owner) - 1])))
+    return in_threads(SIZE, lambda ranks: holding(ranks, [cells], owner, np.array([0, len(owner) - 1])))
 
 
 def test_cells_and_nodes_are_shared_evenly() -> None:
@@ -37,14 +37,14 @@ def test_every_node_and_every_energy_is_counted_once() -> None:
     cells, _, owner = partitioned()
     found = held()
     assert sorted(n for h in found for n in h.nodes[h.own].tolist()) == list(range(len(owner)))
-    assert sorted(c for h in found for c in h.cells[h.counted].tolist()) == list(range(len(cells)))
+    assert sorted(c for h in found for c in h.cells[0][h.counted[0]].tolist()) == list(range(len(cells)))
 
 
 def test_a_rank_holds_all_cells_of_its_nodes_and_what_it_looks_at() -> None:
     cells, _, owner = partitioned()
     for rank, h in enumerate(held()):
-        assert set(np.flatnonzero((owner == rank)[cells].any(axis=1))) == set(h.cells.tolist())
-        assert set(np.unique(cells[h.cells])) | {0, len(owner) - 1} == set(h.nodes.tolist())
+        assert set(np.flatnonzero((owner == rank)[cells].any(axis=1))) == set(h.cells[0].tolist())
+        assert set(np.unique(cells[h.cells[0]])) | {0, len(owner) - 1} == set(h.nodes.tolist())
 
 
 def test_an_exchange_fills_all_copies() -> None:
@@ -52,7 +52,7 @@ def test_an_exchange_fills_all_copies() -> None:
     values = np.arange(2.0 * len(owner)).reshape(-1, 2)
 
     def filled(ranks: Threads) -> bool:
-        h = holding(ranks, cells, owner, np.array([0]))
+        h = holding(ranks, [cells], owner, np.array([0]))
         field = np.full((len(h.nodes), 2), np.nan)
         field[h.own] = values[h.nodes[h.own]]
         return bool((ranks.exchanged(h.exchange, field) == values[h.nodes]).all())

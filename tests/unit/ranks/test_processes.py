@@ -3,7 +3,7 @@
 import os
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import h5py
@@ -16,16 +16,16 @@ from softway.ranks.launch import launcher
 pytestmark = pytest.mark.minutes
 
 
-def command(arguments: Sequence[str], expected: int = 0) -> str:
+def command(arguments: Sequence[str], expected: int = 0, given: Mapping[str, str] | None = None) -> str:
     """What the command told on the terminal."""
     pytest.importorskip("mpi4py.MPI", exc_type=(ImportError, RuntimeError))
     try:
         launcher()
     except sw.InputError as error:
         pytest.skip(str(error))
-    given = {**os.environ, "OMP_NUM_THREADS": "1"}
+    around = {**os.environ, "OMP_NUM_THREADS": "1", **(given or {})}
     words = [sys.executable, "-m", "softway", *arguments]
-    done = subprocess.run(words, capture_output=True, text=True, timeout=300, env=given)
+    done = subprocess.run(words, capture_output=True, text=True, timeout=300, env=around)
     assert done.returncode == expected, done.stderr
     return done.stdout + done.stderr
 
@@ -51,6 +51,32 @@ def test_records_have_the_same_bits_on_one_rank_and_on_several(count: int, file:
     command(["run", str(file), "--quiet", "--ranks", str(count), "--out", str(several)])
     assert records(one) == records(several)
     assert sw.Run(several).events
+
+
+def test_multigrid_of_petsc_has_the_same_motion_on_two_ranks(file: Path, tmp_path: Path) -> None:
+    """Multigrid depends on the partition: the energies agree to 1e-11, the events are the same."""
+    pytest.importorskip("petsc4py", exc_type=(ImportError, RuntimeError))
+    chosen = "solver={kind='FixedPoint', operator={kind='Multigrid'}}"
+    for count in ("1", "2"):
+        command(["run", str(file), "--quiet", "--ranks", count, "--set", chosen, "--out", str(tmp_path / count)])
+    one, two = (sw.Run(tmp_path / count) for count in ("1", "2"))
+    for name in ("energy_kinetic", "energy_strain"):
+        assert np.asarray(two.history[name]) == pytest.approx(np.asarray(one.history[name]), abs=1e-11)
+    assert len(two.events) == len(one.events) > 0
+
+
+def test_a_missing_petsc_is_told_and_the_run_goes_on(file: Path, tmp_path: Path) -> None:
+    hidden = tmp_path / "hidden"
+    hidden.mkdir()
+    (hidden / "sitecustomize.py").write_text(
+        "import importlib.util as util\n"
+        "real = util.find_spec\n"
+        "util.find_spec = lambda name, *given: None if name == 'petsc4py' else real(name, *given)\n"
+    )
+    path = {"PYTHONPATH": os.pathsep.join([str(hidden), os.environ.get("PYTHONPATH", "")])}
+    chosen = "solver={kind='FixedPoint', operator={kind='Multigrid'}}"
+    told = command(["run", str(file), "--ranks", "2", "--set", chosen, "--out", str(tmp_path / "run")], given=path)
+    assert " ".join(told.split()).count("petsc4py is not installed") == 1
 
 
 def test_a_folder_that_exists_ends_all_ranks(file: Path, tmp_path: Path) -> None:
