@@ -7,10 +7,11 @@ import numpy as np
 
 from softway.cluster.admitted import require_several
 from softway.cluster.own_gradients import method_of_ranks
+from softway.cluster.rank_mesh import local_nodes
 from softway.cluster.rank_model import held_by, rank_model
 from softway.cluster.rank_state import RankNumbers, on_all, on_rank, rank_numbers
 from softway.errors import Cancel
-from softway.marching.results.step import Step
+from softway.marching.results.step import Event, Step
 from softway.marching.results.step_states import KnownStates
 from softway.marching.results.trying import TryWatch
 from softway.marching.slab.slab_step import stepper
@@ -21,6 +22,7 @@ from softway.marching.state.model_state import split_states
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.ranks.interface import Ranks
+from softway.ranks.partition import Holding
 
 
 def march_on(
@@ -74,6 +76,14 @@ def _on_whole(step: Step, model: Model, before: State, numbers: RankNumbers, ran
         reactions=model.split(support),
         march_state=march_state,
     )
-    nodes = numbers.held.nodes
-    events = tuple(replace(e, node=int(nodes[e.node])) if e.node >= 0 else e for e in step.events)
+    events = tuple(_in_body(event, model, numbers.held) for event in step.events)
     return replace(step, model=model, events=events, states=states)
+
+
+def _in_body(event: Event, model: Model, held: Holding) -> Event:
+    """Event with the number that its node has in the whole body."""
+    if event.node < 0 or not event.bodies:
+        return event
+    own = next(part.nodes for part in model.parts if part.name == event.bodies[0])
+    first = local_nodes(own, held).start
+    return replace(event, node=int(held.nodes[first + event.node]) - own.start)

@@ -4,7 +4,7 @@ Every rank holds the values of its own nodes and copies of others, with the same
 as exact integers (:mod:`softway.kernels.linalg.exact_sum`), and rounded once.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -157,6 +157,12 @@ class RankSpace:
     def gather(self, field: Array) -> Array:
         """The field: every rank has copies of all nodes that may touch."""
         return field
+
+    def among(self, rows: slice | BoolArray) -> "RankSpace":
+        """Space of some of the nodes."""
+        numbers = np.arange(self.shares.length)[rows]
+        own = np.flatnonzero(np.isin(numbers, self.shares.own, assume_unique=True))
+        return RankSpace(ranks=self.ranks, shares=replace(self.shares, own=own, length=len(numbers)))
 
     def filled(self, field: Array) -> Array:
         """Field (n, ...) of the nodes with the values of others from the ranks that own them."""

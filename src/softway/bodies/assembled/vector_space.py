@@ -68,6 +68,10 @@ class VectorSpace(Protocol):
         """Space of arrays whose first axis runs over the unknowns; entries beyond are the same in every process."""
         ...
 
+    def among(self, rows: slice | BoolArray) -> "VectorSpace":
+        """Space of some of the nodes."""
+        ...
+
     def filled(self, field: Array) -> Array:
         """Field (n, ...) that is complete at a process's own nodes, with the values of the others at all nodes."""
         ...
@@ -142,6 +146,10 @@ class LocalSpace:
     @property
     def of_unknowns(self) -> "LocalSpace":
         """The space itself."""
+        return self
+
+    def among(self, rows: slice | BoolArray) -> "LocalSpace":
+        """The space itself: it sums whatever it gets."""
         return self
 
     def filled(self, field: Array) -> Array:
