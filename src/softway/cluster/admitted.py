@@ -66,7 +66,7 @@ def _of_contacts(model: Model) -> Iterator[tuple[str, str]]:
         yield "contacts[0].timing", "another rule than Energy, and its filter calm"
     contacts = model.contacts
     if not all(served(m) for m in (*contacts.methods, *contacts.overlap_methods)):
-        yield "contacts", "surfaces each of which may touch any other, as with between = \"all\""
+        yield "contacts", 'surfaces each of which may touch any other, as with between = "all"'
 
 
 def _of_method(method: Method) -> Iterator[tuple[str, str]]:

@@ -43,7 +43,9 @@ def owners(cells: Sequence[IntArray], rank_of: Sequence[IntArray], n: int) -> In
     [0, 1, 1]
     """
     size = max(int(ranks.max()) for ranks in rank_of) + 1
-    pairs = [(some.astype(np.int64) * size + ranks[:, None]).ravel() for some, ranks in zip(cells, rank_of, strict=True)]
+    pairs = [
+        (some.astype(np.int64) * size + ranks[:, None]).ravel() for some, ranks in zip(cells, rank_of, strict=True)
+    ]
     node, rank = np.divmod(np.unique(np.concatenate(pairs)), size)
     start = np.searchsorted(node, np.arange(n))
     count = np.searchsorted(node, np.arange(n), side="right") - start
