@@ -1,7 +1,7 @@
 """March of a model over ranks (docs/theory/solver/ranks.md)."""
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -51,27 +51,36 @@ def march_on(
     require_several(model, settings.method, ranks.size)
     prepared = prepare(model, settings, state)
     held = held_by(model, ranks)
-    local = rank_model(model, held, ranks)
+    local, numbers = rank_model(model, held, ranks), rank_numbers(model, held)
     asked = None if not ranks.told(cancel is not None) else lambda: bool(ranks.told(cancel is not None and cancel()))
     own = stepper(local, method_of_ranks(settings.method), settings.weight, asked, None if ranks.rank else trying)
     own = replace(own, ends=prepared.stepper.ends)
-    numbers = rank_numbers(model, held)
-    before = split_states(model, prepared.march_state.state)
-    for step in slabs(own, on_rank(prepared.march_state, numbers)):
-        whole = _on_whole(step, model, before, numbers, ranks)
-        before = before if whole is None else whole.after
-        yield whole
+    begin = on_rank(prepared.march_state, numbers)
+    whole = None if ranks.rank else _Whole(model, split_states(model, prepared.march_state.state))
+    del model, state, prepared  # what the other ranks hold of the whole
+    for step in slabs(own, begin):
+        reached = _on_whole(step, whole, numbers, ranks)
+        if whole is not None and reached is not None:
+            whole = replace(whole, before=reached.after)
+        yield reached
 
 
-def _on_whole(step: Step, model: Model, before: State, numbers: RankNumbers, ranks: Ranks) -> Step | None:
+@dataclass(frozen=True, slots=True, eq=False)
+class _Whole:
+    """The whole model, and its state before a slab."""
+
+    model: Model
+    before: State
+
+
+def _on_whole(step: Step, whole: _Whole | None, numbers: RankNumbers, ranks: Ranks) -> Step | None:
     """Step of the whole model on rank 0; None on the others."""
-    reactions = np.concatenate([step.reactions[part.name] for part in model.parts])
-    found = on_all(step.march_state, numbers, ranks, reactions)
-    if found is None:
+    found = on_all(step.march_state, numbers, ranks, np.concatenate(list(step.reactions.values())))
+    if found is None or whole is None:
         return None
-    march_state, support = found
+    (march_state, support), model = found, whole.model
     states = KnownStates(
-        before=before,
+        before=whole.before,
         after=split_states(model, march_state.state),
         reactions=model.split(support),
         march_state=march_state,

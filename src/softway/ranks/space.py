@@ -4,6 +4,7 @@ Every rank holds the values of its own nodes and copies of others, with the same
 as exact integers (:mod:`softway.kernels.linalg.exact_sum`), and rounded once.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -122,13 +123,20 @@ class RankSpace:
 
     def totals(self, density: Array) -> Array:
         """Sums (parts,) over each solid; of one that is not there, zero."""
-        mask = np.zeros((self.shares.length, len(self.solids)))
-        for k, rows in enumerate(self.solids):
-            mask[rows, k] = 1.0
-        mine = self.shares.mine(density.reshape(len(density), -1))
+        return np.asarray(self.totals_of([density])[0])
+
+    def totals_of(self, densities: Sequence[Array]) -> Array:
+        """Sums (k, parts) over each solid, in one message."""
+        k, parts = len(densities), len(self.solids)
+        mask = np.zeros((self.shares.length, parts))
+        for number, rows in enumerate(self.solids):
+            mask[rows, number] = 1.0
         where = self.shares.mine(mask)[:, :, None].astype(bool)
-        split = np.where(where, mine[:, None, :], 0.0)
-        return self.shares.summed(split.transpose(0, 2, 1).reshape(-1, len(self.solids)))
+        columns = []
+        for density in densities:
+            mine = self.shares.mine(density.reshape(len(density), -1))
+            columns.append(np.where(where, mine[:, None, :], 0.0).transpose(0, 2, 1).reshape(-1, parts))
+        return self.shares.summed(np.concatenate(columns, axis=1)).reshape(k, parts)
 
     def dot(self, a: Array, b: Array) -> float:
         """Inner product."""
@@ -144,6 +152,10 @@ class RankSpace:
         shape = a.shape[1:] + b.shape[1:]
         pairs = left.reshape(len(left), -1, 1) * right.reshape(len(right), 1, -1)
         return self.shares.summed(pairs.reshape(len(left), -1)).reshape(shape)
+
+    def products_of(self, a: Array, vectors: Sequence[Array]) -> tuple[Array, ...]:
+        """``a^T b`` of several vectors, in one message."""
+        return tuple(self.products(a, np.stack(vectors, axis=1)).T)
 
     def works(self, forces: Array, motion: Array) -> Array:
         """Works (k,) of force fields along a motion."""

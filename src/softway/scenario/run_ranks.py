@@ -1,6 +1,6 @@
 """March of a checked scenario over ranks: rank 0 records the steps, the others assist."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from softway.cluster.admitted import REMEDY, require_several
@@ -54,22 +54,29 @@ def steps_of_ranks(
     trying: TryWatch | None = None,
 ) -> Iterator[Step]:
     """Steps of the march on rank 0, from its ``state``; none on the others."""
-    begin = ranks.told(state)
-    for step in march_on(ranks, checked.model, checked.march_state.settings, begin, cancel, trying):
-        if step is not None:
-            yield step
+    march = march_on(ranks, checked.model, checked.march_state.settings, ranks.told(state), cancel, trying)
+    return (step for step in march if step is not None)
 
 
-def assist(ranks: Ranks, checked: Checked | CheckedRigid, record: Mapping[str, Any] | None = None) -> int:
+def assist(ranks: Ranks, read: Callable[[], Checked | CheckedRigid], record: Mapping[str, Any] | None = None) -> int:
     """March with rank 0, which records the steps, to the end; the exit code 0.
 
-    With the ``record`` of a run that stopped, rank 0 continues this run.
+    The scenario is ``read`` here, and the whole model kept no longer than it takes to begin.  With the ``record`` of a
+    run that stopped, rank 0 continues this run.
     """
+    for _ in _assisting(ranks, read, record):
+        pass
+    return 0
+
+
+def _assisting(
+    ranks: Ranks, read: Callable[[], Checked | CheckedRigid], record: Mapping[str, Any] | None
+) -> Iterator[Step]:
+    """March of a rank that assists."""
+    checked = read()
     if record is not None:
         ranks_of(record, ranks)
     require_ranks(checked, ranks.size)
     assert isinstance(checked, Checked)
     agreed(ranks, lambda: None)  # on the folder, and the checkpoint, of rank 0
-    for _ in steps_of_ranks(ranks, checked, None):
-        pass
-    return 0
+    return steps_of_ranks(ranks, checked, None)

@@ -1,6 +1,7 @@
 """Command resume: resume a run that stopped."""
 
 import sys
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -57,10 +58,11 @@ def resume(
         if done if team is None else team.told(done):
             console.print(f"already done: nothing is left to compute in {folder}", markup=False, soft_wrap=True)
             return 0
-        with waiting(console, "reading the scenario and building the meshes"):
-            checked = together(team, lambda: check(stored(folder, allow_python)))
+        read = partial(together, team, lambda: check(stored(folder, allow_python)))
         if team is not None and team.rank:
-            return assist(team, checked, stopped.provenance)
+            return assist(team, read, stopped.provenance)
+        with waiting(console, "reading the scenario and building the meshes"):
+            checked = read()
     with among(team), progress_of(checked, console) as progress:
         ended = go_on(folder, scenario=checked, progress=progress, tell=teller(console), ranks=team)
     slabs = ended.provenance["resumed"][-1]["slabs"]
