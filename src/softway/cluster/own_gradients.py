@@ -1,6 +1,7 @@
 """Conjugate gradients over ranks with the stored rows of the own nodes."""
 
 from dataclasses import dataclass, replace
+from typing import Any, cast
 
 import numpy as np
 
@@ -75,4 +76,4 @@ def method_of_ranks(method: Method) -> FixedPoint:
     """Method over ranks: conjugate gradients, and no other method takes over."""
     assert isinstance(method, FixedPoint)
     given = ConjugateGradients() if method.operator == "auto" else method.operator
-    return replace(method, operator=owned(given), handover=False)
+    return replace(method, operator=cast(Any, owned(given)), handover=False)
