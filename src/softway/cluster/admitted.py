@@ -9,6 +9,7 @@ from softway.bodies.solid import Driven, Guided
 from softway.cluster.rank_contacts import served
 from softway.contact.impact_rule import Energy
 from softway.errors import InputError
+from softway.laws.law import Viscous
 from softway.marching.rules.slab_rule import Method
 from softway.model.model import Model
 from softway.solve.methods.fixed_point import FixedPoint
@@ -48,6 +49,8 @@ def _of_solids(model: Model) -> Iterator[tuple[str, str]]:
         where = f"bodies.{part.name}"
         if not isinstance(part.internal, ElasticForce | InelasticForce):
             yield f"{where}.material", "several materials"
+        elif isinstance(part.internal.material, Viscous):
+            yield f"{where}.material", "a material without elasticity, whose slabs Newton's method has to take over"
         if part.dilatation == "corner":
             yield f"{where}.dilatation", "'corner', whose averages reach over several cells"
         if len(part.mesh.blocks) > 1:

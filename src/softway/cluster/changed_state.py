@@ -62,11 +62,9 @@ def _memory(memory: OperatorMemory, change: Change) -> OperatorMemory:
     """Changed memory, and memories of other lengths."""
     origin, choice = memory.origin, memory.choice
     if origin is not None:
-        named = {
-            name: None if operator is None else change.operator(operator)
-            for name, operator in (("operator", origin.operator), ("analyst", origin.analyst))
-        }
-        origin = replace(origin, at=change.nodal(origin.at), states=_materials(origin.states, change), **named)
+        maker, analyst = (None if o is None else change.operator(o) for o in (origin.operator, origin.analyst))
+        at, states = change.nodal(origin.at), _materials(origin.states, change)
+        origin = replace(origin, operator=maker, analyst=analyst, at=at, states=states)
     if choice is not None:
         choice = replace(choice, operator=change.operator(choice.operator))
     others = tuple(_memory(other, change) for other in memory.others)

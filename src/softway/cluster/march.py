@@ -1,16 +1,17 @@
 """March of a model over ranks (docs/theory/solver/ranks.md)."""
 
 from collections.abc import Iterator
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from softway.cluster.admitted import require_several
 from softway.cluster.own_gradients import method_of_ranks, method_of_whole
+from softway.cluster.rank_mesh import local_nodes
 from softway.cluster.rank_model import held_by, rank_model
 from softway.cluster.rank_state import RankNumbers, on_all, on_rank, rank_numbers
 from softway.errors import Cancel
-from softway.marching.results.step import Step
+from softway.marching.results.step import Event, Step
 from softway.marching.results.step_states import KnownStates
 from softway.marching.results.trying import TryWatch
 from softway.marching.slab.slab_step import stepper
@@ -21,6 +22,7 @@ from softway.marching.state.model_state import split_states
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.ranks.interface import Ranks
+from softway.ranks.partition import Holding
 
 
 def march_on(
@@ -49,33 +51,49 @@ def march_on(
     require_several(model, settings.method, ranks.size)
     prepared = prepare(model, replace(settings, method=method_of_whole(settings.method)), state)
     held = held_by(model, ranks)
-    local = rank_model(model, held, ranks)
+    local, numbers = rank_model(model, held, ranks), rank_numbers(model, held)
     asked = None if not ranks.told(cancel is not None) else lambda: bool(ranks.told(cancel is not None and cancel()))
     own = stepper(local, method_of_ranks(settings.method), settings.weight, asked, None if ranks.rank else trying)
     own = replace(own, ends=prepared.stepper.ends)
-    numbers = rank_numbers(model, held)
     start = prepared.march_state
-    start = replace(start, settings=replace(start.settings, method=settings.method))
-    before = split_states(model, start.state)
-    for step in slabs(own, on_rank(start, numbers)):
-        whole = _on_whole(step, model, before, numbers, ranks)
-        before = before if whole is None else whole.after
-        yield whole
+    begin = on_rank(replace(start, settings=replace(start.settings, method=settings.method)), numbers)
+    whole = None if ranks.rank else _Whole(model, split_states(model, start.state))
+    del model, state, prepared, start  # what the other ranks hold of the whole
+    for step in slabs(own, begin):
+        reached = _on_whole(step, whole, numbers, ranks)
+        if whole is not None and reached is not None:
+            whole = replace(whole, before=reached.after)
+        yield reached
 
 
-def _on_whole(step: Step, model: Model, before: State, numbers: RankNumbers, ranks: Ranks) -> Step | None:
+@dataclass(frozen=True, slots=True, eq=False)
+class _Whole:
+    """The whole model, and its state before a slab."""
+
+    model: Model
+    before: State
+
+
+def _on_whole(step: Step, whole: _Whole | None, numbers: RankNumbers, ranks: Ranks) -> Step | None:
     """Step of the whole model on rank 0; None on the others."""
-    reactions = np.concatenate([step.reactions[part.name] for part in model.parts])
-    found = on_all(step.march_state, numbers, ranks, reactions)
-    if found is None:
+    found = on_all(step.march_state, numbers, ranks, np.concatenate(list(step.reactions.values())))
+    if found is None or whole is None:
         return None
-    march_state, support = found
+    (march_state, support), model = found, whole.model
     states = KnownStates(
-        before=before,
+        before=whole.before,
         after=split_states(model, march_state.state),
         reactions=model.split(support),
         march_state=march_state,
     )
-    nodes = numbers.held.nodes
-    events = tuple(replace(e, node=int(nodes[e.node])) if e.node >= 0 else e for e in step.events)
+    events = tuple(_in_body(event, model, numbers.held) for event in step.events)
     return replace(step, model=model, events=events, states=states)
+
+
+def _in_body(event: Event, model: Model, held: Holding) -> Event:
+    """Event with the number that its node has in the whole body."""
+    if event.node < 0 or not event.bodies:
+        return event
+    own = next(part.nodes for part in model.parts if part.name == event.bodies[0])
+    first = local_nodes(own, held).start
+    return replace(event, node=int(held.nodes[first + event.node]) - own.start)

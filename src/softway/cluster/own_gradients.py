@@ -3,7 +3,7 @@
 import logging
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 import scipy.sparse as sp
@@ -172,7 +172,7 @@ def method_of_ranks(method: Method) -> FixedPoint:
     """Method over ranks: conjugate gradients, and no other method takes over."""
     assert isinstance(method, FixedPoint)
     given = ConjugateGradients() if method.operator == "auto" else method.operator
-    return replace(method, operator=owned(given), handover=False)
+    return replace(method, operator=cast(Any, owned(given)), handover=False)
 
 
 def method_of_whole(method: Method) -> Method:

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import replace
-from typing import TypeVar
+from typing import Any
 
 from softway.arrays import Array, IntArray
 from softway.cluster.rank_mesh import local_nodes
@@ -19,7 +19,6 @@ from softway.model.model import Model
 from softway.ranks.partition import Holding
 from softway.ranks.space import RankSpace
 
-Renumbered = TypeVar("Renumbered", NodeToTool, NodeToFacet, EdgeToEdge, Mortar)
 METHODS = NodeToTool, NodeToFacet, EdgeToEdge, Mortar
 """Methods of contact that have local numbers."""
 
@@ -66,7 +65,7 @@ def _declared(surface: DeclaredSurface, held: Holding) -> DeclaredSurface:
     return replace(surface, nodes=own, points=surface.points[numbers], facets=facets)
 
 
-def _method(method: Renumbered, held: Holding) -> Renumbered:
+def _method(method: Any, held: Holding) -> Any:
     """Method on local nodes."""
     if isinstance(method, NodeToTool):
         return replace(method, node=held.local(method.node))

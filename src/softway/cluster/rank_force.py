@@ -20,8 +20,8 @@ from softway.bodies.internal_force.assembled import force_of
 from softway.bodies.internal_force.material_state import MaterialState
 from softway.bodies.internal_force.slab_average import AverageField, DiscreteGradient, SlabForce
 from softway.cluster.cell_energies import CellForce, cell_energies_and_force, of_cells, point_totals
-from softway.laws.law import Damped
 from softway.cluster.stored_rows import RowTable, row_table
+from softway.laws.law import Damped
 from softway.meshes.mesh import Mesh
 from softway.ranks.interface import Ranks
 from softway.ranks.partition import Holding

@@ -11,12 +11,9 @@ from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.dof_map import NodalDofs
 from softway.bodies.internal_force.body_force import BodyForce
 from softway.cluster.own_rows import columns, own_rows
-from softway.cluster.rank_force import rank_force
 from softway.cluster.rank_contacts import rank_contacts, rank_friction
+from softway.cluster.rank_force import rank_force
 from softway.cluster.rank_mesh import local_nodes, rank_mesh
-from softway.contact.contact_set import ContactSet
-from softway.contact.node_to_surface.node_to_tool import NodeToTool
-from softway.contact.tangential_rows import TangentialRows
 from softway.meshes.mesh import Mesh
 from softway.model.model import Model
 from softway.ranks.interface import Ranks

@@ -6,7 +6,6 @@ from typing import Any
 
 import numpy as np
 import scipy.sparse as sp
-from numpy.typing import NDArray
 
 from softway.arrays import Array, IntArray
 from softway.bodies.internal_force.material_state import MaterialState
@@ -77,7 +76,8 @@ def on_rank(state: MarchState, numbers: RankNumbers) -> MarchState:
 
 def on_all(state: MarchState, numbers: RankNumbers, ranks: Ranks, more: Array) -> tuple[MarchState, Array] | None:
     """March state of the model on rank 0, and a nodal field ``more`` (n, d); None on the others."""
-    nodal, material = [more], []
+    nodal: list[Array] = [more]
+    material: list[tuple[int, MaterialState]] = []
     taken = Change(
         nodal=lambda field: _kept(nodal, field),
         material=lambda solid, mine: _kept(material, (solid, mine))[1],
@@ -151,7 +151,7 @@ def _placed_states(
     for (solid, mine), values, u in zip(material, points, moved, strict=True):
         assert values is not None
         arrays, ends = _arrays(mine), 0
-        whole: dict[str, NDArray[np.float64]] = {}
+        whole: dict[str, Any] = {}
         for name, some in arrays.items():
             width = int(np.prod(some.shape[1:]))
             whole[name] = np.ascontiguousarray(values[:, ends : ends + width]).reshape(len(values), *some.shape[1:])

@@ -101,3 +101,8 @@ def agreed(ranks: Ranks, action: Callable[[], Result]) -> Result:
         if text:
             raise InputError(f"rank {rank}", text)
     return result
+
+
+def together(ranks: Ranks | None, action: Callable[[], Result]) -> Result:
+    """:func:`agreed` result of an action if there are ranks, else the result; errors as those of the action."""
+    return action() if ranks is None else agreed(ranks, action)

@@ -64,7 +64,7 @@ class Holding:
     own
         (k,) local numbers of the nodes that it owns.
     cells
-        (e,) numbers of the cells of each solid that touch its own nodes, ascending.
+        (e,) numbers of the cells of each solid that touch its own nodes, ascending; the first one if none does.
     counted
         (e,) of each solid, True for the cells whose energy it counts: those whose first node it owns.
     exchange
@@ -88,7 +88,7 @@ def holding(ranks: Ranks, cells: Sequence[IntArray], owner: IntArray, seen: IntA
     ``seen`` are nodes that it looks at besides those of its cells.
     """
     mine = owner == ranks.rank
-    here = tuple(np.flatnonzero(mine[some].any(axis=1)) for some in cells)
+    here = tuple(_touching(some, mine) for some in cells)
     around = [some[own].ravel() for some, own in zip(cells, here, strict=True)]
     nodes = np.unique(np.concatenate([np.flatnonzero(mine), *around, seen]))
     return Holding(
@@ -98,6 +98,12 @@ def holding(ranks: Ranks, cells: Sequence[IntArray], owner: IntArray, seen: IntA
         counted=tuple(mine[some[own, 0]] for some, own in zip(cells, here, strict=True)),
         exchange=_exchange(ranks, nodes, owner[nodes]),
     )
+
+
+def _touching(cells: IntArray, mine: BoolArray) -> IntArray:
+    """Cells (k,) that touch own nodes; of a solid elsewhere the first cell, which adds nothing, so that it has one."""
+    found = np.flatnonzero(mine[cells].any(axis=1))
+    return found if len(found) else np.zeros(1, np.int64)
 
 
 def _exchange(ranks: Ranks, nodes: IntArray, owner: IntArray) -> Exchange:

@@ -4,7 +4,8 @@ Every rank holds the values of its own nodes and copies of others, with the same
 as exact integers (:mod:`softway.kernels.linalg.exact_sum`), and rounded once.
 """
 
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -122,13 +123,20 @@ class RankSpace:
 
     def totals(self, density: Array) -> Array:
         """Sums (parts,) over each solid; of one that is not there, zero."""
-        mask = np.zeros((self.shares.length, len(self.solids)))
-        for k, rows in enumerate(self.solids):
-            mask[rows, k] = 1.0
-        mine = self.shares.mine(density.reshape(len(density), -1))
+        return np.asarray(self.totals_of([density])[0])
+
+    def totals_of(self, densities: Sequence[Array]) -> Array:
+        """Sums (k, parts) over each solid, in one message."""
+        k, parts = len(densities), len(self.solids)
+        mask = np.zeros((self.shares.length, parts))
+        for number, rows in enumerate(self.solids):
+            mask[rows, number] = 1.0
         where = self.shares.mine(mask)[:, :, None].astype(bool)
-        split = np.where(where, mine[:, None, :], 0.0)
-        return self.shares.summed(split.transpose(0, 2, 1).reshape(-1, len(self.solids)))
+        columns = []
+        for density in densities:
+            mine = self.shares.mine(density.reshape(len(density), -1))
+            columns.append(np.where(where, mine[:, None, :], 0.0).transpose(0, 2, 1).reshape(-1, parts))
+        return self.shares.summed(np.concatenate(columns, axis=1)).reshape(k, parts)
 
     def dot(self, a: Array, b: Array) -> float:
         """Inner product."""
@@ -145,6 +153,10 @@ class RankSpace:
         pairs = left.reshape(len(left), -1, 1) * right.reshape(len(right), 1, -1)
         return self.shares.summed(pairs.reshape(len(left), -1)).reshape(shape)
 
+    def products_of(self, a: Array, vectors: Sequence[Array]) -> tuple[Array, ...]:
+        """``a^T b`` of several vectors, in one message."""
+        return tuple(self.products(a, np.stack(vectors, axis=1)).T)
+
     def works(self, forces: Array, motion: Array) -> Array:
         """Works (k,) of force fields along a motion."""
         mine = [self.shares.mine(f * motion).ravel() for f in forces]
@@ -157,6 +169,12 @@ class RankSpace:
     def gather(self, field: Array) -> Array:
         """The field: every rank has copies of all nodes that may touch."""
         return field
+
+    def among(self, rows: slice | BoolArray) -> "RankSpace":
+        """Space of some of the nodes."""
+        numbers = np.arange(self.shares.length)[rows]
+        own = np.flatnonzero(np.isin(numbers, self.shares.own, assume_unique=True))
+        return RankSpace(ranks=self.ranks, shares=replace(self.shares, own=own, length=len(numbers)))
 
     def filled(self, field: Array) -> Array:
         """Field (n, ...) of the nodes with the values of others from the ranks that own them."""

@@ -48,6 +48,7 @@ def record_run(
     notes: Sequence[Note] = (),
     plan: Checkpoints = NO_CHECKPOINTS,
     progress: Watch | None = None,
+    ranks: int = 0,
 ) -> Run:
     """Record every step of ``steps``; the folder is created when the first time step (slab) is accepted or fails.
 
@@ -67,6 +68,8 @@ def record_run(
         Schedule of the checkpoints; a temporary folder has none.
     progress
         Callback after each recorded step, or group.
+    ranks
+        Number of ranks that march; 0 for one process without ranks.
 
     Raises
     ------
@@ -83,7 +86,7 @@ def record_run(
     def fill(folder: Path) -> None:
         for name, text in given.items():
             (folder / name).write_text(text, encoding="utf-8")
-        provenance.begin(folder, title, given, notes)
+        provenance.begin(folder, title, given, notes, ranks)
 
     with ExitStack() as held:
         with recording(place.out):

@@ -3,6 +3,7 @@
 import logging
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import ExitStack
 from dataclasses import replace
 from functools import cache, lru_cache, partial
 from pathlib import Path
@@ -16,22 +17,18 @@ from softway.heat.coupled.solid_temperature import temperatures_of
 from softway.marching.audit.balances import balances, contact_forces
 from softway.marching.audit.ledger import initial_ledger as audit
 from softway.marching.march import march, march_in_groups
-from softway.marching.remeshing.adapted_scene import adapted_scene
-from softway.marching.remeshing.forming.formed_scene import formed_scene
 from softway.marching.results.step import Ledger, Step
 from softway.marching.slab.step_group import StepGroup
-from softway.marching.start.initial_state import without_contact
-from softway.marching.start.stored_state import require_of_model
 from softway.marching.state.march_state import MarchState, Settings
-from softway.marching.state.model_state import ModelState, join_states, split_states
+from softway.marching.state.model_state import split_states
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.ranks.interface import Ranks
-from softway.ranks.launch import agreed
+from softway.ranks.launch import agreed, together
 from softway.record.conduct import continue_run, record_run
 from softway.record.run import SCENARIO, Run
 from softway.record.storage import provenance
-from softway.record.storage.checkpoint import last
+from softway.record.storage.checkpoint import Checkpoint
 from softway.record.storage.gate.own_files import require_own
 from softway.record.storage.lock import locked
 from softway.record.storage.provenance import DONE
@@ -40,8 +37,9 @@ from softway.record.write.progress import Heartbeat, MechanismWatch, Occasional,
 from softway.record.write.recorder import RunStart
 from softway.scenario.checks.check import Checked, check
 from softway.scenario.checks.probes import probe_readings
+from softway.scenario.checks.stored_run import last_checkpoint
 from softway.scenario.files import dumps, load
-from softway.scenario.run_ranks import require_ranks, steps_of_ranks
+from softway.scenario.run_ranks import ranks_of, require_ranks, steps_of_ranks
 from softway.scenario.run_rigid import CheckedRigid, resume_rigid, run_rigid
 from softway.scenario.scenario import Scenario
 from softway.scenario.text.user_modules import own_sources
@@ -105,13 +103,11 @@ def run(
         watch = cast(MechanismWatch | None, progress)
         return run_rigid(checked, place, _texts(checked.scenario), progress=watch, cancel=cancel, tell=tell)
     given, opening = checked.scenario, _opening(checked)
-    if ranks is None:
-        steps = _steps(checked, opening.initial, cancel, tell, progress)
-    else:
-        steps = steps_of_ranks(ranks, checked, opening.initial, cancel, Heartbeat(tell))
-    plan, watched = given.output.checkpoints, cast(Watch | None, progress)
-    texts, notes = _texts(given), checked.notes
-    return record_run(steps, opening, place, title=given.title, texts=texts, notes=notes, plan=plan, progress=watched)
+    steps = _steps(checked, opening.initial, cancel, tell, progress, ranks)
+    return record_run(
+        steps, opening, place, title=given.title, texts=_texts(given), notes=checked.notes,
+        plan=given.output.checkpoints, progress=cast(Watch | None, progress), ranks=0 if ranks is None else ranks.size,
+    )  # fmt: skip
 
 
 def resume(
@@ -122,6 +118,7 @@ def resume(
     cancel: Cancel | None = None,
     tell: Tell = LOG.info,
     allow_python: bool = False,
+    ranks: Ranks | None = None,
 ) -> Run:
     """Resume a run that was killed, interrupted, cancelled or failed, from its last checkpoint.
 
@@ -138,6 +135,8 @@ def resume(
         As for :func:`run`.
     allow_python
         True if ``module:name`` in the scenario may also name an installed module.
+    ranks
+        As for :func:`run`, of any number; by default a run over ranks continues on one rank, with the same bits.
 
     Raises
     ------
@@ -150,34 +149,25 @@ def resume(
     if stopped.stop == DONE:
         LOG.info("'%s' is complete: nothing to compute", stopped.path)
         return stopped
-    with locked(stopped.path):
-        require_own(stopped.path)
-        given = stored(stopped.path, allow_python) if scenario is None else scenario
-        checked = check(given, cancel=cancel) if isinstance(given, Scenario) else given
-        texts = _texts(checked.scenario)
-        provenance.require_same(stopped.path, stopped.provenance, texts)
+    ranks = ranks_of(stopped.provenance, ranks)
+    with ExitStack() as held:
+
+        def ready() -> tuple[Checked | CheckedRigid, Checkpoint | None]:
+            held.enter_context(locked(stopped.path))
+            require_own(stopped.path)
+            given = stored(stopped.path, allow_python) if scenario is None else scenario
+            checked = check(given, cancel=cancel) if isinstance(given, Scenario) else given
+            provenance.require_same(stopped.path, stopped.provenance, _texts(checked.scenario))
+            return checked, None if isinstance(checked, CheckedRigid) else last_checkpoint(stopped.path, checked)
+
+        checked, found = together(ranks, ready)
         if isinstance(checked, CheckedRigid):
-            heard = cast(MechanismWatch | None, progress)
+            heard, texts = cast(MechanismWatch | None, progress), _texts(checked.scenario)
             return resume_rigid(checked, stopped, texts, progress=heard, cancel=cancel, tell=tell)
-        opening = _opening(checked)
-        pattern = join_states(checked.model, opening.initial)
-        found = last(stopped.path, partial(_require_state, checked.model, pattern))
+        opening, plan = _opening(checked), checked.scenario.output.checkpoints
         begin = opening.initial if found is None else cast(MarchState, found.march_state)
-        steps, plan = _steps(checked, begin, cancel, tell, progress), checked.scenario.output.checkpoints
+        steps = _steps(checked, begin, cancel, tell, progress, ranks)
         return continue_run(steps, opening, stopped, found, plan=plan, progress=cast(Watch | None, progress))
-
-
-def _require_state(model: Model, pattern: ModelState, state: object) -> None:
-    """Refuse a state that is not one of this model."""
-    if not isinstance(state, MarchState):
-        raise InputError("state", f"is a {type(state).__name__}", "a checkpoint of this run")
-    if state.adapted is not None:
-        model = adapted_scene(model).at(state.adapted.leaves).model
-    if state.remeshed is not None:
-        model = formed_scene(model).at(state.remeshed.meshes).model
-    if state.adapted is not None or state.remeshed is not None:
-        pattern = without_contact(model)
-    require_of_model(model, pattern, state)
 
 
 def of_same_input(folder: Path, scenario: Scenario) -> bool:
@@ -240,8 +230,13 @@ def _steps(
     cancel: Cancel | None,
     tell: Tell,
     progress: Watch | MechanismWatch | None,
+    ranks: Ranks | None,
 ) -> Iterator[Step | StepGroup]:
-    """March of a checked scenario; steps of each slab only for a callback that asks for them."""
+    """March of a checked scenario, over ranks if there are any; steps of each slab only for a callback that asks for
+    them.
+    """
+    if ranks is not None:
+        return steps_of_ranks(ranks, checked, state, cancel, Heartbeat(tell))
     time = checked.scenario.time
     if cancel is None and (progress is None or isinstance(progress, Occasional)):
         settings = Settings(

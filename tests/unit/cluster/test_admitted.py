@@ -6,13 +6,14 @@ import softway as sw
 from softway.cluster.admitted import require_several
 from softway.model.build import build
 from softway.model.model import Model
-from softway.solve.operators import Factored
+from softway.solve.operators import ConjugateGradients, Factored
 
 
 def solid(**more: object) -> sw.Solid:
     """Square in the plane."""
-    given = {"material": sw.NeoHookean(E=100.0, nu=0.3), "density": 1.0}
-    return sw.Solid(mesh=sw.meshes.Rectangle(size=(1.0, 1.0), cells=(2, 2)), **{**given, **more})
+    mesh = sw.meshes.Rectangle(size=(1.0, 1.0), cells=(4, 4))
+    given = {"mesh": mesh, "material": sw.NeoHookean(E=100.0, nu=0.3), "density": 1.0}
+    return sw.Solid(**{**given, **more})
 
 
 def model(contact: sw.Contact | None = None, **more: object) -> Model:
@@ -22,23 +23,31 @@ def model(contact: sw.Contact | None = None, **more: object) -> Model:
     return build(sw.Scene(bodies={"one": solid(**more), "floor": floor}, contacts=(contact,)))
 
 
-def two() -> Model:
+def two(between: object) -> Model:
     """Two squares."""
     other = solid(place=sw.bodies.Placement(translation=(2.0, 0.0)))
-    return build(sw.Scene(bodies={"one": solid(), "other": other}))
+    return build(sw.Scene(bodies={"one": solid(), "other": other}, contacts=(sw.Contact(between=between),)))
 
 
-ROUGH = sw.Contact(between=("one.bottom", "floor"), friction=sw.Coulomb(mu=0.3))
+HALVES = sw.meshes.Rectangle(size=(1.0, 1.0), cells=(4, 4)).build()
+HALVES = HALVES.with_region("a", lambda x: x[:, 0] < 0.5).with_region("b", lambda x: x[:, 0] > 0.5)
 CASES = {
-    "two bodies": (two, "bodies: runs on one rank only: 2 deformable bodies"),
-    "friction": (lambda: model(ROUGH), "contacts: runs on one rank only: friction"),
-    "history": (
-        lambda: model(material=sw.J2(E=100.0, nu=0.3, yield_stress=1.0)),
-        "bodies.one.material: runs on one rank only: several materials, or one with a history",
+    "each with each": (
+        lambda: two("all"),
+        'contacts: runs on one rank only: surfaces each of which may touch any other, as with between = "all"',
     ),
-    "mean dilatation": (
-        lambda: model(dilatation="mean"),
-        "bodies.one.material: runs on one rank only: NeoHookean without a compiled law for such cells",
+    "several materials": (
+        lambda: model(mesh=HALVES, material={name: sw.NeoHookean(E=100.0, nu=0.3) for name in "ab"}),
+        "bodies.one.material: runs on one rank only: several materials",
+    ),
+    "creep": (
+        lambda: model(material=sw.laws.NortonHoff(K=1.0, m=0.5)),
+        "bodies.one.material: runs on one rank only: a material without elasticity, whose slabs Newton's method has to "
+        "take over",
+    ),
+    "mean dilatation of corners": (
+        lambda: model(dilatation="corner"),
+        "bodies.one.dilatation: runs on one rank only: 'corner', whose averages reach over several cells",
     ),
     "viscosity": (
         lambda: model(shock=sw.bodies.BulkViscosity()),
@@ -62,9 +71,12 @@ def test_a_method_on_one_rank_only(method: sw.Newton | sw.FixedPoint) -> None:
 
 
 def test_more_ranks_than_cells() -> None:
-    with pytest.raises(sw.InputError, match="ranks: 5 for 4 cells\n  try: 4 or fewer"):
-        require_several(model(), sw.FixedPoint(), 5)
+    with pytest.raises(sw.InputError, match="ranks: 17 for 16 cells\n  try: 16 or fewer"):
+        require_several(model(), sw.FixedPoint(), 17)
 
 
 def test_what_is_admitted() -> None:
+    rough = sw.Contact(between=("one.bottom", "floor"), friction=sw.Coulomb(mu=0.3))
     require_several(model(), sw.FixedPoint(), 4)
+    require_several(model(rough, material=sw.J2(E=100.0, nu=0.3, yield_stress=1.0)), sw.FixedPoint(), 4)
+    require_several(two(("one.right", "other.left")), sw.FixedPoint(operator=ConjugateGradients()), 8)

@@ -1,6 +1,6 @@
 """Traffic of ranks, counted: what a slab sends does not depend on the size of the body."""
 
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,28 +13,10 @@ from softway.marching.state.step_control import StepControl
 from softway.model.build import build
 from softway.model.model import Model
 from softway.model.time_weight import EndPeaks
+from softway.ranks.counted import Counted
 from softway.ranks.threads import Threads, in_threads
 from softway.solve.equations.slab_matrix import SlabMatrix
 from softway.solve.operators import MatrixFree
-
-
-@dataclass(frozen=True)
-class Counted:
-    """Ranks that count their calls by name."""
-
-    ranks: Threads
-    calls: dict[str, int] = field(default_factory=dict)
-
-    def __getattr__(self, name: str) -> object:
-        value = getattr(self.ranks, name)
-        if not callable(value):
-            return value
-
-        def counted(*arguments: object) -> object:
-            self.calls[name] = self.calls.get(name, 0) + 1
-            return value(*arguments)
-
-        return counted
 
 
 def block(cells: int = 3) -> Model:
@@ -55,7 +37,7 @@ def test_an_inner_step_is_one_exchange_and_one_reduction() -> None:
     model = block()
 
     def solve(ranks: Threads) -> tuple[dict[str, int], int]:
-        counted = Counted(ranks)
+        counted = Counted(ranks=ranks)
         local = rank_model(model, held_by(model, counted), counted)
         slab = SlabMatrix(model=local, stiffness_factor=5e-7, viscous_factor=0.0)
         products: list[int] = []
@@ -77,18 +59,18 @@ def test_an_inner_step_is_one_exchange_and_one_reduction() -> None:
 
 @pytest.mark.parametrize("cells", [3, pytest.param(6, marks=pytest.mark.slow)])
 def test_the_traffic_of_an_iteration_does_not_depend_on_the_size(cells: int) -> None:
-    """Besides its inner steps an iteration makes fewer than 13 sums and 7 comparisons; a slab is collected once."""
+    """Besides inner steps an iteration makes 3 sums and 5 comparisons, a slab 25 and 10; it is collected once."""
     model = block(cells)
     method = sw.FixedPoint(operator=MatrixFree(), handover=False)
     given = Settings(until=0.008, step=1e-3, weight=EndPeaks(), method=method, control=StepControl())
 
     def march(ranks: Threads) -> tuple[dict[str, int], int, int]:
-        counted = Counted(ranks)
+        counted = Counted(ranks=ranks)
         steps = [s for s in march_on(counted, model, given) if s is not None]
         return counted.calls, sum(s.report.iterations for s in steps), len(steps)
 
     calls, iterations, slabs = in_threads(2, march)[0]
     assert iterations > 5 * slabs
-    assert calls["added"] - calls["exchanged"] < 13 * iterations
-    assert calls["greatest"] < 7 * iterations
+    assert calls["added"] - calls["exchanged"] <= 3 * iterations + 25 * slabs
+    assert calls["greatest"] <= 5 * iterations + 10 * slabs
     assert calls["collected"] == 2 * slabs

@@ -28,3 +28,40 @@ def file(tmp_path: Path) -> Path:
     out = tmp_path / "block.toml"
     out.write_text(SCENE)
     return out
+
+
+ROUGH = """
+[bodies.block]
+kind = "Solid"
+mesh = { kind = "Rectangle", size = [1.0, 0.6], cells = [4, 3], origin = [0.1, 0.62] }
+material = { kind = "J2", E = 1e4, nu = 0.3, yield_stress = 40.0 }
+density = 1.0
+velocity = { kind = "Uniform", value = [0.5, -5.0] }
+[bodies.bed]
+kind = "Solid"
+mesh = { kind = "Rectangle", size = [1.3, 0.6], cells = [5, 3] }
+material = { kind = "NeoHookean", E = 2e4, nu = 0.3 }
+density = 1.0
+[bodies.floor]
+kind = "Tool"
+shape = { kind = "HalfSpace", point = [0.0, -0.01], normal = [0.05, 1.0] }
+[[contacts]]
+between = ["block.bottom", "bed.top"]
+friction = { kind = "Coulomb", mu = 0.2 }
+[[contacts]]
+between = ["bed.bottom", "floor"]
+friction = { kind = "Coulomb", mu = 0.3 }
+[time]
+end = 0.007
+step = 5e-4
+[output]
+checkpoints = { every = 0.0 }
+"""
+
+
+@pytest.fixture
+def rough(tmp_path: Path) -> Path:
+    """Scenario of a plastic block thrown at a bed, both with friction."""
+    out = tmp_path / "rough.toml"
+    out.write_text(ROUGH)
+    return out

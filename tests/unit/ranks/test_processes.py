@@ -1,5 +1,6 @@
 """Ranks as processes of MPI: the same records as one rank, bit by bit; needs mpi4py and mpiexec (make test-mpi)."""
 
+import json
 import os
 import subprocess
 import sys
@@ -86,21 +87,56 @@ def test_a_folder_that_exists_ends_all_ranks(file: Path, tmp_path: Path) -> None
 
 
 def test_a_scenario_on_one_rank_only_is_refused_once(file: Path, tmp_path: Path) -> None:
-    rough = "contacts[0].friction={kind='Coulomb', mu=0.3}"
-    told = command(["run", str(file), "--ranks", "2", "--set", rough], expected=2)
-    assert told.count("runs on one rank only: friction") == 1
+    shock = "bodies.block.shock={kind='BulkViscosity'}"
+    told = command(["run", str(file), "--ranks", "2", "--set", shock], expected=2)
+    assert told.count("runs on one rank only: a bulk viscosity") == 1
 
 
-def test_a_rank_that_fails_alone_is_named(file: Path, tmp_path: Path) -> None:
-    """The records of rank 0 meet a folder that nobody may write into."""
-    module = tmp_path / "broken.py"
+def test_more_ranks_than_cells_are_refused_once(file: Path) -> None:
+    told = command(["run", str(file), "--ranks", "3", "--set", "bodies.block.mesh.cells=[1, 2]"], expected=2)
+    assert told.count("error ranks: 3 for 2 cells") == 1
+
+
+@pytest.mark.parametrize("count", [2, 4])
+def test_friction_plasticity_and_two_bodies_have_the_same_bits(count: int, rough: Path, tmp_path: Path) -> None:
+    one, several = tmp_path / "one", tmp_path / "several"
+    command(["run", str(rough), "--quiet", "--ranks", "1", "--out", str(one)])
+    command(["run", str(rough), "--quiet", "--ranks", str(count), "--out", str(several)])
+    assert records(one) == records(several)
+    assert sw.Run(several).events
+
+
+@pytest.mark.parametrize("count", [None, 3])
+def test_a_run_that_lost_a_rank_goes_on_with_the_same_bits(count: int | None, rough: Path, tmp_path: Path) -> None:
+    """A run on two processes, of which one fails, continues on one or on three."""
+    whole, lost = tmp_path / "whole", tmp_path / "lost"
+    command(["run", str(rough), "--quiet", "--ranks", "1", "--out", str(whole)])
+    failing(tmp_path, rough, lost, slab=9)
+    assert sw.Run(lost).provenance["ranks"] == 2
+    command(["resume", str(lost), "--quiet", *([] if count is None else ["--ranks", str(count)])])
+    assert records(whole) == records(lost)
+    assert sw.Run(lost).provenance["resumed"][0]["slabs"] >= 8
+
+
+def test_a_run_without_ranks_does_not_go_on_over_ranks(rough: Path, tmp_path: Path) -> None:
+    out = tmp_path / "run"
+    command(["run", str(rough), "--quiet", "--out", str(out)])
+    record = json.loads((out / "provenance.json").read_text())
+    (out / "provenance.json").write_text(json.dumps({**record, "stop_reason": "interrupted"}))
+    told = command(["resume", str(out), "--ranks", "2"], expected=2)
+    assert told.count("error --ranks: 2, for a run without ranks") == 1
+
+
+def failing(place: Path, scenario: Path, out: Path, slab: int) -> str:
+    """What a run on two processes tells of which the second fails in a slab, with exit code 3."""
+    module = place / "broken.py"
     module.write_text(
         "import os, sys\n"
         "from softway.cluster import march\n"
         "real = march.slabs\n"
         "def slabs(*given):\n"
         "    for k, step in enumerate(real(*given)):\n"
-        "        if k == 2 and os.environ.get('PMI_RANK', os.environ.get('OMPI_COMM_WORLD_RANK')) == '1':\n"
+        f"        if k == {slab} and os.environ.get('PMI_RANK', os.environ.get('OMPI_COMM_WORLD_RANK')) == '1':\n"
         "            raise OSError('the disk of this node is gone')\n"
         "        yield step\n"
         "march.slabs = slabs\n"
@@ -108,7 +144,14 @@ def test_a_rank_that_fails_alone_is_named(file: Path, tmp_path: Path) -> None:
         "sys.exit(main())\n"
     )
     pytest.importorskip("mpi4py.MPI", exc_type=(ImportError, RuntimeError))
-    arguments = [launcher(), "-n", "2", sys.executable, str(module), "run", str(file), "--out", str(tmp_path / "run")]
+    arguments = [launcher(), "-n", "2", sys.executable, str(module), "run", str(scenario), "--out", str(out)]
     done = subprocess.run(arguments, capture_output=True, text=True, timeout=120)
     assert done.returncode == 3
-    assert "error rank 1 of 2 ends the run: the disk of this node is gone" in done.stderr
+    return done.stderr
+
+
+def test_a_rank_that_fails_alone_is_named(file: Path, tmp_path: Path) -> None:
+    """The records of rank 0 are readable up to the slab in which another rank fails."""
+    told = failing(tmp_path, file, tmp_path / "run", slab=2)
+    assert "error rank 1 of 2 ends the run: the disk of this node is gone" in told
+    assert len(sw.Run(tmp_path / "run").history) >= 2

@@ -33,6 +33,8 @@ def results(ranks: Threads) -> list[np.ndarray]:
     tail = np.concatenate([a[:, 0], np.arange(float(TAIL))])
     found = [it.greatest(a, b), it.least(a), it.total(a), it.mean(a), it.sums(a), it.totals(a), it.dot(a, a)]
     found += [it.norm(b), it.products(a, b), it.products(a[:, 0], b), it.works(np.stack([a, -a]), a), it.every(mask)]
+    some = it.among(mask)
+    found += [some.sums(a[mask]), it.among(slice(0, N)).total(a)]
     return [np.asarray(x) for x in (*found, it.total(tail), it.products(tail, tail))]
 
 
@@ -44,6 +46,8 @@ def test_sums_have_the_same_bits_on_any_number_of_ranks_and_are_those_of_one_pro
     it, a, b = LocalSpace((slice(0, N),)), values(3), values(2)
     plain = [it.greatest(a, b), it.least(a), it.total(a), it.mean(a), it.sums(a), it.totals(a), it.dot(a, a)]
     plain += [it.norm(b), it.products(a, b), it.products(a[:, 0], b), it.works(np.stack([a, -a]), a), True]
+    mask = (values(1) > -1e12).ravel()
+    plain += [it.among(mask).sums(a[mask]), it.among(slice(0, N)).total(a)]
     for x, y in zip(plain, one, strict=False):
         assert y == pytest.approx(x, rel=1e-12, abs=1e-12 * float(np.abs(a).max()))
 

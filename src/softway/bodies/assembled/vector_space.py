@@ -4,6 +4,7 @@ Everything that combines values of many nodes or unknowns into a few goes throug
 may be distributed over several processes.  Values of contact rows and of solids are the same in every process.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -39,6 +40,10 @@ class VectorSpace(Protocol):
         """Sums (parts,) of a nodal quantity (n, ...) over each solid."""
         ...
 
+    def totals_of(self, densities: Sequence[Array]) -> Array:
+        """Sums (k, parts) of several nodal quantities (n, d) over each solid, in one message."""
+        ...
+
     def dot(self, a: Array, b: Array) -> float:
         """Inner product of two fields of the same shape."""
         ...
@@ -49,6 +54,10 @@ class VectorSpace(Protocol):
 
     def products(self, a: Array, b: Array) -> Array:
         """``a^T b`` over the first axis of (n, k) or (n,), and (n, d) or (n,)."""
+        ...
+
+    def products_of(self, a: Array, vectors: Sequence[Array]) -> tuple[Array, ...]:
+        """``a^T b`` (k,) of several vectors b (n,), in one message."""
         ...
 
     def works(self, forces: Array, motion: Array) -> Array:
@@ -66,6 +75,10 @@ class VectorSpace(Protocol):
     @property
     def of_unknowns(self) -> "VectorSpace":
         """Space of arrays whose first axis runs over the unknowns; entries beyond are the same in every process."""
+        ...
+
+    def among(self, rows: slice | BoolArray) -> "VectorSpace":
+        """Space of some of the nodes."""
         ...
 
     def filled(self, field: Array) -> Array:
@@ -115,6 +128,10 @@ class LocalSpace:
         """Sums (parts,) over each solid."""
         return np.array([density[rows].sum() for rows in self.solids])
 
+    def totals_of(self, densities: Sequence[Array]) -> Array:
+        """Sums (k, parts) over each solid."""
+        return np.array([self.totals(density) for density in densities])
+
     def dot(self, a: Array, b: Array) -> float:
         """Inner product."""
         return float(np.vdot(a, b))
@@ -126,6 +143,10 @@ class LocalSpace:
     def products(self, a: Array, b: Array) -> Array:
         """``a^T b`` over the first axis."""
         return np.asarray(a.T @ b)
+
+    def products_of(self, a: Array, vectors: Sequence[Array]) -> tuple[Array, ...]:
+        """``a^T b`` of several vectors."""
+        return tuple(self.products(a, b) for b in vectors)
 
     def works(self, forces: Array, motion: Array) -> Array:
         """Works (k,) of force fields along a motion."""
@@ -142,6 +163,10 @@ class LocalSpace:
     @property
     def of_unknowns(self) -> "LocalSpace":
         """The space itself."""
+        return self
+
+    def among(self, rows: slice | BoolArray) -> "LocalSpace":
+        """The space itself: it sums whatever it gets."""
         return self
 
     def filled(self, field: Array) -> Array:

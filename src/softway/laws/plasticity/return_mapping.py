@@ -50,15 +50,16 @@ def returned(
     flowing = missing(none)[0] > 0.0
     low, high = none, np.where(flowing, norm / slope, 0.0)
     x = np.where(flowing, np.minimum(missing(none)[0] / np.maximum(missing(0.5 * high)[1], 1e-300), high), 0.0)
-    fall = np.ones_like(norm)
+    fall, moving = np.ones_like(norm), flowing  # those that have settled stay: no point depends on others
     for _ in range(LIMIT if flowing.any() else 0):
         rest, fall = missing(x)
         low, high = np.where(rest > 0.0, x, low), np.where(rest > 0.0, high, x)
         new = x + rest / fall
         new = np.where((new >= low) & (new <= high), new, 0.5 * (low + high))
-        change = np.abs(np.where(flowing, new - x, 0.0))
-        x = np.where(flowing, new, 0.0)
-        if not np.any(change > TOLERANCE * high):
+        change = np.abs(np.where(moving, new - x, 0.0))
+        x = np.where(moving, new, x)
+        moving = moving & (change > TOLERANCE * high)
+        if not moving.any():
             break
     fall = missing(x)[1]
     return x, np.where(flowing, 1.0 / fall, 0.0)

@@ -73,8 +73,11 @@ def stop_of(folder: Path, read: Callable[[], Mapping[str, Any]]) -> Stop:
     return Stop(record["stop_reason"], record["message"])
 
 
-def begin(folder: Path, title: str, texts: Mapping[str, str], notes: Sequence[Note] = ()) -> Mapping[str, Any]:
-    """Write the file at the start of a run with the input ``texts`` by name and the ``notes`` on it.
+def begin(
+    folder: Path, title: str, texts: Mapping[str, str], notes: Sequence[Note] = (), ranks: int = 0
+) -> Mapping[str, Any]:
+    """Write the file at the start of a run with the input ``texts`` by name and the ``notes`` on it, and the number of
+    ``ranks`` if there are any.
 
     Returns the record for :func:`end`.
     """
@@ -88,6 +91,7 @@ def begin(folder: Path, title: str, texts: Mapping[str, str], notes: Sequence[No
         "stop": None,
         "stop_reason": RUNNING.reason,
         "message": "",
+        **({"ranks": ranks} if ranks else {}),
     }
     _save(folder, record)
     return record

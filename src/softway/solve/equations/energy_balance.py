@@ -218,7 +218,8 @@ def _along_motion(model: Model, ends: EndForces, moving: Array, members: BoolArr
     space, weight = model.space, np.asarray(model.mass.sum(axis=1)).reshape(-1, 1) * model.free
     out = np.zeros_like(moving)
     for rows in (p.nodes for p, here in zip(model.parts, members, strict=True) if here):
-        mean = space.sums(weight[rows] * moving[rows]) / np.maximum(space.sums(weight[rows]), 1e-300)
+        own = space.among(rows)
+        mean = own.sums(weight[rows] * moving[rows]) / np.maximum(own.sums(weight[rows]), 1e-300)
         out[rows] = moving[rows] - mean
     out = model.mass @ (out - model.supported(out))
     if _unsupported(model, members):

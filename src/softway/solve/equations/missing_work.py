@@ -34,7 +34,7 @@ def missing_work(model: Model, ends: EndForces, touched: BoolArray) -> tuple[Arr
     Linear solids that nothing touches, ``touched`` (parts,) False, are balanced by internal forces alone.  Others are
     not: there the residual of massless nodes is an error of the iterate, which the balance has to see.
     """
-    done, change = _works(model, ends), ends.V1 - ends.V0
+    (done, kinetic), change = _works(model, ends), ends.V1 - ends.V0
     slave, n = model.part_of[ends.rows0.node], len(model.parts)
     with np.errstate(invalid="ignore"):
         d0 = np.where(ends.force0 > 0.0, ends.force0 * ends.rows0.tool_motion, 0.0)
@@ -53,34 +53,38 @@ def missing_work(model: Model, ends: EndForces, touched: BoolArray) -> tuple[Arr
         gaps = _closings(model, ends)
         inner = inner[0] + 0.5 * (gaps[0] + gaps[1]), inner[1] - (gaps[1] - gaps[0])
         num, den = (np.where(flying | rough, b, a) for a, b in zip((num, den), inner, strict=True))
-    level = np.abs(ends.V1) + np.abs(ends.V0) + model.kinetic(ends.v0) + ends.cancelled + done[SIZE] + done[LOADED]
+    level = np.abs(ends.V1) + np.abs(ends.V0) + kinetic + ends.cancelled + done[SIZE] + done[LOADED]
     level += np.bincount(slave, weights=np.abs(d0) + np.abs(d1), minlength=n)
     return num, den, level, done[SIZE]
 
 
-def _works(model: Model, ends: EndForces) -> Array:
-    """Works (WORKS, parts) of the forces of a slab, see :mod:`softway.kernels.slab.works`."""
+def _works(model: Model, ends: EndForces) -> tuple[Array, Array]:
+    """Works (WORKS, parts) of the forces of a slab, see :mod:`softway.kernels.slab.works`, and the kinetic energy
+    (parts,) at its start [J].
+    """
     if isinstance(model.space, LocalSpace):
         out, nodes = np.empty((len(model.parts), WORKS)), [s.start for s in model.space.solids]
         fields = (model.load_before, model.load, ends.u0, ends.u1, ends.f0, ends.f1, ends.mean)
         l0, l1, u0, u1, f0, f1, mean = (np.require(f, float, ["C", "W"]).ravel() for f in fields)  # one kind of array
         first, heavy = np.array([*nodes, len(model.massive)]), np.repeat(model.massive, model.shape[1])
         works(first, model.shape[1], heavy, (l0, l1), u0, u1, (f0, f1), mean, out)
-        return out.T
+        return out.T, model.kinetic(ends.v0)
     du, moving = ends.u1 - ends.u0, moving_part(model, ends)
     still, change = du - moving, ends.f1 - ends.f0
-    return np.array(
-        [
-            model.space.totals(ends.mean * moving),
-            model.space.totals(np.abs(ends.mean * moving)),
-            model.space.totals(change * moving),
-            model.space.totals(0.5 * (model.load_before + model.load) * still),
-            model.space.totals((model.load - model.load_before) * still),
-            model.space.totals(np.abs(model.load * du)),
-            model.space.totals(0.5 * (ends.f0 + ends.f1) * still),
-            model.space.totals(change * du),
-        ]
+    found = model.space.totals_of(
+        (
+            ends.mean * moving,
+            np.abs(ends.mean * moving),
+            change * moving,
+            0.5 * (model.load_before + model.load) * still,
+            (model.load - model.load_before) * still,
+            np.abs(model.load * du),
+            0.5 * (ends.f0 + ends.f1) * still,
+            change * du,
+            ends.v0 * (model.mass @ ends.v0),
+        )
     )
+    return found[:WORKS], 0.5 * found[WORKS]
 
 
 def _closings(model: Model, ends: EndForces) -> tuple[Array, Array]:

@@ -14,7 +14,7 @@ def middle(model: Model, ends: EndForces, members: BoolArray) -> Array:
     """Positions (n, d) in the middle of the slab, relative to the mean of the nodes of a group."""
     here = members[model.part_of]
     x = model.points + 0.5 * (ends.u0 + ends.u1)
-    return np.asarray(x - model.space.sums(x[here]) / model.space.total(here))
+    return np.asarray(x - model.space.among(here).sums(x[here]) / model.space.total(here))
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -46,8 +46,8 @@ def spin_balance(model: Model, ends: EndForces, members: BoolArray) -> SpinBalan
     arm = np.zeros_like(x)
     weight = np.asarray(model.mass.sum(axis=1)).reshape(-1, 1)
     for part in (p for p, inside in zip(model.parts, members, strict=True) if inside):
-        rows = part.nodes
-        arm[rows] = x[rows] - model.space.sums(weight[rows] * x[rows]) / model.space.total(weight[rows])
+        rows, space = part.nodes, model.space.among(part.nodes)
+        arm[rows] = x[rows] - space.sums(weight[rows] * x[rows]) / space.total(weight[rows])
     fields = np.array([model.mass @ f for f in _turned(arm)]).reshape(-1, *arm.shape)
     inner = here & model.massive
     rigid = model.against_tool[model.contacts.contact]

@@ -73,14 +73,15 @@ class Anderson:
         k = self.count % self.depth
         self.residuals[k], self.values[k] = residual, value
         self.count += 1
-        kept = min(self.count, self.depth)
-        self.gram[k, :kept] = self.gram[:kept, k] = self.space.products(self.residuals[:kept].T, residual)
 
     def _weights(self, residual: Array, kept: int) -> Array:
-        """Weights (kept,) of the differences that minimise the residual."""
+        """Weights (kept,) of the differences that minimise the residual, after the last one was kept."""
+        k = (self.count - 1) % self.depth
+        row, pull = self.space.products_of(self.residuals[:kept].T, (self.residuals[k], residual))
+        self.gram[k, :kept] = self.gram[:kept, k] = row
         length = np.sqrt(np.maximum(np.diagonal(self.gram)[:kept], 1e-300))
         unit = self.gram[:kept, :kept] / np.outer(length, length)
         value, vector = np.linalg.eigh(unit)
         independent = value > INDEPENDENT * kept
-        projected = vector.T @ (self.space.products(self.residuals[:kept].T, residual) / length)
+        projected = vector.T @ (pull / length)
         return np.asarray((vector[:, independent] @ (projected[independent] / value[independent])) / length)

@@ -1,5 +1,6 @@
 """Conjugate gradients without a matrix, preconditioned by the diagonal blocks of the nodes."""
 
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
@@ -92,7 +93,10 @@ def nodal(slab: SlabMatrix, u: Array) -> Blocks:
         slab.stiffness_factor * model.space.filled(model.tangent_blocks(u))
         + model.mass.diagonal()[:, None, None] * unit
     )
-    try:
-        return Blocks(model.dofs.block_inverse(blocks))
-    except np.linalg.LinAlgError:
-        raise NoConvergence("a node has neither inertia nor stiffness") from None
+    inverse: sp.csr_array | None = None
+    with suppress(np.linalg.LinAlgError):
+        inverse = model.dofs.block_inverse(blocks)
+    found = model.space.every(np.array([inverse is not None]))  # in all processes, or in none
+    if inverse is None or not found:
+        raise NoConvergence("a node has neither inertia nor stiffness")
+    return Blocks(inverse)

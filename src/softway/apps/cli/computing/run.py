@@ -1,6 +1,7 @@
 """Command run: compute a scenario."""
 
 import sys
+from functools import partial
 from pathlib import Path
 from typing import Annotated
 
@@ -65,10 +66,11 @@ def run(
     listen(verbose)
     folder, team = out or free(Path("runs") / file.stem), ranks_here(ranks)
     console = Console(quiet=quiet or bool(team and team.rank))
+    read = partial(examined, file, set_, console, allow_python=allow_python, strict=strict, ranks=team)
     with among(team):
-        checked = examined(file, set_, console, allow_python=allow_python, strict=strict, ranks=team)
         if team is not None and team.rank:
-            return assist(team, checked)
+            return assist(team, read)
+        checked = read()
     scales(checked, console)
     try:
         with among(team), progress_of(checked, console) as progress:

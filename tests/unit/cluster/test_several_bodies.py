@@ -1,0 +1,135 @@
+"""March over ranks of two bodies, with friction, histories and step control: the bits of any number of ranks."""
+
+from dataclasses import fields, replace
+
+import numpy as np
+import pytest
+
+import softway as sw
+from softway.cluster.march import march_on
+from softway.laws.plasticity.rate_dependence import Perzyna
+from softway.marching.results.step import Step
+from softway.marching.state.march_state import MarchState, Settings
+from softway.marching.state.step_control import StepControl
+from softway.model.build import build
+from softway.model.model import Model
+from softway.model.time_weight import EndPeaks
+from softway.ranks.alone import Alone
+from softway.ranks.interface import Ranks
+from softway.ranks.threads import in_threads
+
+GIVEN = Settings(until=0.006, step=5e-4, weight=EndPeaks(), method=sw.FixedPoint(), control=StepControl())
+SOFT = sw.NeoHookean(E=1e4, nu=0.3)
+FLOWING = {"E": 1e4, "nu": 0.3, "yield_stress": 40.0}
+
+
+def thrown(material: object = SOFT, mu: float = 0.0, method: object = None, **more: object) -> Model:
+    """Block thrown aslant at a bed, which stands above an inclined floor."""
+    block = sw.Solid(
+        mesh=sw.meshes.Rectangle(size=(1.0, 0.6), cells=(3, 2), origin=(0.1, 0.62)),
+        material=material,
+        density=1.0,
+        velocity=sw.bodies.Uniform(value=(0.5, -5.0)),
+        **more,
+    )
+    bed = sw.Solid(
+        mesh=sw.meshes.Rectangle(size=(1.3, 0.6), cells=(4, 2)), material=sw.NeoHookean(E=2e4, nu=0.3), density=1.0
+    )
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, -0.01), normal=(0.05, 1.0)))
+    friction = sw.Coulomb(mu=mu) if mu else sw.laws.Frictionless()
+    contacts = (
+        sw.Contact(between=("block.bottom", "bed.top"), friction=friction, method=method),
+        sw.Contact(between=("bed.bottom", "floor"), friction=friction),
+    )
+    return build(sw.Scene(bodies={"block": block, "bed": bed, "floor": floor}, contacts=contacts))
+
+
+def told(step: Step) -> list[object]:
+    """Every number of a step, as bits."""
+    kinds = ("displacement", "velocity", "acceleration", "pressure", "traction", "sliding", "slip")
+    numbers = [value for kind in kinds for _, value in sorted(getattr(step.after, kind).items())]
+    numbers += [step.reactions[name] for name in sorted(step.reactions)]
+    for state in step.march_state.state.start.states:
+        if state is not None:
+            numbers += [state.displacement, state.stress, state.stored, state.dissipated, *state.law.values()]
+    for kind in (step.certificate, step.ledger):
+        numbers += [np.asarray(getattr(kind, f.name), float).ravel() for f in fields(kind) if _numeric(kind, f.name)]
+    events = [(e.kind, e.contact, e.node, e.time, e.impulse) for e in step.events]
+    return [step.report.iterations, step.report.factorisations, events, *(x.tobytes() for x in numbers)]
+
+
+def _numeric(kind: object, name: str) -> bool:
+    """True for a number, or an array of numbers."""
+    return isinstance(getattr(kind, name), float | np.ndarray)
+
+
+def steps(ranks: Ranks, model: Model, given: Settings = GIVEN, state: MarchState | None = None) -> list[Step]:
+    """Steps of a march on rank 0; empty on the others."""
+    return [step for step in march_on(ranks, model, given, state) if step is not None]
+
+
+def over(size: int, model: Model, given: Settings = GIVEN, state: MarchState | None = None) -> list[Step]:
+    """Steps of a march over a number of threads."""
+    return in_threads(size, lambda ranks: steps(ranks, model, given, state))[0]
+
+
+def require_equal(model: Model, given: Settings = GIVEN) -> list[Step]:
+    """Steps on one rank, which have the bits of those on two, and on three from a state of two."""
+    one, two = steps(Alone(), model, given), over(2, model, given)
+    middle = len(one) // 2 + 1
+    assert [told(s) for s in two] == [told(s) for s in one]
+    assert [told(s) for s in over(3, model, given, two[middle].march_state)] == [told(s) for s in one[middle + 1 :]]
+    return one
+
+
+CASES = {
+    "mortar": (thrown, {}),
+    "nodes on facets": (thrown, {"method": sw.contact.NodeToSurface()}),
+    "friction": (thrown, {"mu": 0.2}),
+    "plastic, with friction": (thrown, {"material": sw.J2(**FLOWING), "mu": 0.2}),
+    "viscoplastic": (thrown, {"material": sw.J2(**FLOWING, flow=Perzyna(drag=30.0, reference=10.0, exponent=1.0))}),
+    "mean dilatation": (thrown, {"material": sw.J2(**FLOWING), "dilatation": "mean"}),
+    "a law without kernels": (thrown, {"material": sw.laws.MooneyRivlin(c10=4e3, c01=1e3, bulk=4e4)}),
+}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_two_bodies_have_the_same_bits_on_any_number_of_ranks_and_move_as_on_one_process(name: str) -> None:
+    made, given = CASES[name]
+    model = made(**given)
+    ours = require_equal(model)
+    theirs = list(sw.march(model, until=GIVEN.until, step=GIVEN.step, method=GIVEN.method))
+    assert {e.kind for step in ours for e in step.events} >= {"touch"}
+    for mine, other in zip(ours, theirs, strict=True):
+        assert abs(mine.certificate.energy_error) < 1e-11 * 7.5
+        assert mine.certificate.momentum_error < 1e-11 * 3.0
+        for body in ("block", "bed"):
+            np.testing.assert_allclose(
+                mine.after.displacement[body], other.after.displacement[body], atol=1e-12, rtol=0.0
+            )
+            np.testing.assert_allclose(mine.after.velocity[body], other.after.velocity[body], atol=1e-9, rtol=0.0)
+
+
+def test_events_name_the_nodes_of_their_bodies() -> None:
+    model = thrown(method=sw.contact.NodeToSurface(), mu=0.2)
+    theirs = [e for s in sw.march(model, until=GIVEN.until, step=GIVEN.step, method=GIVEN.method) for e in s.events]
+    found = [(e.kind, e.contact, e.node) for s in over(2, model) for e in s.events]
+    assert found == [(e.kind, e.contact, e.node) for e in theirs]
+
+
+def test_a_plastic_block_flows_and_its_history_is_whole() -> None:
+    model = thrown(material=sw.J2(**FLOWING))
+    last = over(3, model)[-1]
+    state = last.after.memory["block"]
+    (cells,) = model.parts[0].mesh.blocks.values()
+    assert state.law["plastic_strain"].shape == (4 * len(cells),)
+    assert float(state.law["plastic_strain"].max()) > 1e-3
+    np.testing.assert_array_equal(state.displacement, last.after.displacement["block"])
+    energy = model.parts[0].internal.sampling.volume @ (state.stored + state.dissipated)
+    assert last.ledger.energy_strain > 0.0
+    assert float(energy) > 0.1
+
+
+@pytest.mark.parametrize("tolerance", [None, 1e-3])
+def test_slabs_whose_length_is_chosen_have_the_same_bits(tolerance: float | None) -> None:
+    require_equal(thrown(), replace(GIVEN, step="auto", tolerance=tolerance))
