@@ -27,8 +27,8 @@ from softway.solve.operators.matrix_free import nodal
 
 LOG = logging.getLogger(__name__)
 MISSING = (
-    "petsc4py is not installed: conjugate gradients with the blocks of the nodes in place of multigrid, slower for long "
-    f"slabs; {REMEDY}"
+    "petsc4py is not installed: conjugate gradients with the blocks of the nodes in place of multigrid, slower for "
+    f"long slabs; {REMEDY}"
 )
 PRICE = 4.0
 """Cost of the matrix, in iterations."""
@@ -135,9 +135,8 @@ def _cycle(model: Model, u: Array, rows: Sequence[sp.bsr_array]) -> Cycle:
     held = sp.diags_array(np.where(dofs.free.ravel(), 0.0, whole.diagonal()))
     matrix = sp.csr_array(free @ whole @ free + held)
     mine = (own[:, None] * d + np.arange(d)).ravel()
-    return multigrid(
-        ranks, sp.csr_array(matrix[mine]), ranks.exchanged(space.exchange, numbers), (model.points + u)[own]
-    )
+    everywhere = np.rint(ranks.exchanged(space.exchange, numbers.astype(float))).astype(np.int64)
+    return multigrid(ranks, sp.csr_array(matrix[mine]), everywhere, (model.points + u)[own])
 
 
 def _space(model: Model) -> RankSpace:

@@ -49,7 +49,7 @@ def groups(stepper: Stepper, march_state: MarchState) -> Iterator[Step | StepGro
         if some is not None:
             count = len(some.iterations)
             watched(stepper.trying, march_state.slabs + 1, march_state.state.time, span)
-            yield StepGroup.whole(some)
+            yield from _looked_at_the_last(shapes, StepGroup.whole(some))
             march_state, memory, before = some.march_state(count), some.memory_after(count), some.state(count)
             continue
         length = slab_length(stepper.ends, march_state)
@@ -71,6 +71,19 @@ def _looked_at(
     certificate = shapes.seen(found.certificate, found.after)
     bad = tuple(shapes.findings(certificate, march_state.state, found.after))
     return replace(found, certificate=certificate), bad
+
+
+def _looked_at_the_last(shapes: WatchedCells, group: StepGroup) -> Iterator[Step | StepGroup]:
+    """The group; where cells may fold, its last slab as a step with the shape of the worst cell."""
+    if not shapes.blocks:
+        yield group
+        return
+    if len(group) > 1:
+        yield group.part(0, len(group) - 1)
+    step, after = group.step(len(group) - 1), group.march_state.state
+    certificate = shapes.seen(step.certificate, after)
+    bad = tuple(shapes.findings(certificate, group.batch.begun.state, after))
+    yield replace(step, certificate=certificate, events=(*step.events, *bad))
 
 
 def _after(model: Model, march_state: MarchState, found: AcceptedSlab, cells: Crushing) -> MarchState:

@@ -29,7 +29,7 @@ from softway.kernels.slab.tables import (
     Course,
 )
 from softway.marching.slab.resident_model import ResidentModel
-from softway.marching.slab.slab_batch import SlabBatch
+from softway.marching.slab.slab_batch import SlabBatch, contractions
 from softway.marching.state.march_state import EnergyAccount, MarchState, Settings
 from softway.marching.state.step_control import above
 from softway.model.scene import State
@@ -51,7 +51,7 @@ MIDDLE = 1.0 / 12.0
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Kept:
-    """Rows (N,) of fields that are copied to the processor when they are asked for."""
+    """Rows (N,) of fields, or slices of them, that are copied to the processor when they are asked for."""
 
     count: int
     row: Callable[[int], Array]
@@ -60,9 +60,9 @@ class Kept:
         """Number of rows."""
         return self.count
 
-    def __getitem__(self, k: int) -> Array:
-        """Row k."""
-        return self.row(k)
+    def __getitem__(self, k: int | slice) -> Array:
+        """Row k, or rows k."""
+        return np.stack([self.row(i) for i in range(*k.indices(self.count))]) if isinstance(k, slice) else self.row(k)
 
 
 def next_resident(
@@ -95,12 +95,16 @@ def next_resident(
         lengths.append(length)
     if not lengths:
         return None
+    model, iterations = resident.model, (1,) * len(lengths)
     return SlabBatch(
-        model=resident.model,
+        model=model,
         begun=march_state,
         memory=memory,
         course=_course(resident, states, sums, met),
-        iterations=(1,) * len(lengths),
+        iterations=iterations,
+        contractions=contractions(sums[: len(lengths)], iterations),
+        pairs=model.contacts.rest(model.displacement, 0.0).found,
+        scalars={part.name: 0.0 for part in model.parts},
         states={0: before},
         lengths=tuple(lengths),
     )
