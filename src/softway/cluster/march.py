@@ -51,7 +51,8 @@ def march_on(
     held = held_by(model, ranks)
     local = rank_model(model, held, ranks)
     asked = None if not ranks.told(cancel is not None) else lambda: bool(ranks.told(cancel is not None and cancel()))
-    own = stepper(local, method_of_ranks(settings.method), settings.weight, asked, None if ranks.rank else trying)
+    method = method_of_ranks(settings.method, tell=ranks.rank == 0)
+    own = stepper(local, method, settings.weight, asked, None if ranks.rank else trying)
     own = replace(own, ends=prepared.stepper.ends)
     numbers = rank_numbers(model, held)
     start = prepared.march_state
