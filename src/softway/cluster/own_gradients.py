@@ -27,8 +27,8 @@ from softway.solve.operators.matrix_free import nodal
 
 LOG = logging.getLogger(__name__)
 MISSING = (
-    "petsc4py is not installed: conjugate gradients with the blocks of the nodes in place of multigrid, slower for long "
-    f"slabs; {REMEDY}"
+    "petsc4py is not installed: conjugate gradients with the blocks of the nodes in place of multigrid, slower for "
+    f"long slabs; {REMEDY}"
 )
 PRICE = 4.0
 """Cost of the matrix, in iterations."""
@@ -149,8 +149,8 @@ def _space(model: Model) -> RankSpace:
 
 
 def owned(operator: Operator, tell: bool = True) -> Operator:
-    """Operator of a rank in place of a declared one; conjugate gradients for multigrid without PETSc, which one rank has
-    to ``tell``.
+    """Operator of a rank in place of a declared one; conjugate gradients for multigrid without PETSc, which one rank
+    has to ``tell``.
     """
     match operator:
         case ConjugateGradients(tolerance=tolerance, limit=limit):
