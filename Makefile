@@ -66,7 +66,8 @@ test-processors: $(TEST)/ready
 
 test-mpi: $(TEST)/ready
 	$(TEST)/bin/python -m pip install --quiet --constraint constraints.txt --editable '.[dev,mpi]' mpich
-	$(TEST)/bin/python -m pytest -q tests/unit/ranks/test_processes.py
+	@$(TEST)/bin/python -c 'import petsc4py' 2>/dev/null || echo "petsc4py is not installed: its tests are skipped (docs/reference/runs/cluster.md#petsc)"
+	$(TEST)/bin/python -m pytest -q tests/unit/ranks/test_processes.py tests/unit/ranks/test_petsc.py
 
 test-gpu: $(TEST)/ready
 	$(TEST)/bin/python -m pip install --quiet --constraint constraints.txt --editable '.[dev,gpu]'

@@ -53,7 +53,8 @@ def march_on(
     held = held_by(model, ranks)
     local, numbers = rank_model(model, held, ranks), rank_numbers(model, held)
     asked = None if not ranks.told(cancel is not None) else lambda: bool(ranks.told(cancel is not None and cancel()))
-    own = stepper(local, method_of_ranks(settings.method), settings.weight, asked, None if ranks.rank else trying)
+    method = method_of_ranks(settings.method, tell=ranks.rank == 0)
+    own = stepper(local, method, settings.weight, asked, None if ranks.rank else trying)
     own = replace(own, ends=prepared.stepper.ends)
     start = prepared.march_state
     begin = on_rank(replace(start, settings=replace(start.settings, method=settings.method)), numbers)

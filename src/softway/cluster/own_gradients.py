@@ -128,7 +128,7 @@ def _cycle(model: Model, u: Array, rows: Sequence[sp.bsr_array]) -> Cycle:
     assert isinstance(dofs, NodalDofs) and space.exchange is not None
     ranks, own, d = space.ranks, space.shares.own, u.shape[1]
     counts = [int(count[0]) for count in ranks.gathered(np.array([len(own)]))]
-    numbers = np.zeros(len(u), np.int64)
+    numbers = np.zeros(len(u))
     numbers[own] = sum(counts[: ranks.rank]) + np.arange(len(own))
     whole = sp.csr_array(sp.csr_array(sp.block_diag(rows)) + sp.kron(cast(OwnRows, model.mass).rows, sp.eye_array(d)))
     free = sp.diags_array(dofs.free.ravel().astype(float))
@@ -144,15 +144,17 @@ def _space(model: Model) -> RankSpace:
     return model.space
 
 
-def owned(operator: Operator) -> Operator:
-    """Operator of a rank in place of a declared one; conjugate gradients for multigrid without PETSc."""
+def owned(operator: Operator, tell: bool = True) -> Operator:
+    """Operator of a rank in place of a declared one; conjugate gradients for multigrid without PETSc, which one rank
+    has to ``tell``.
+    """
     match operator:
         case ConjugateGradients(tolerance=tolerance, limit=limit):
             return OwnGradients(tolerance=tolerance, limit=limit)
         case Multigrid(tolerance=tolerance, limit=limit) if available():
             return OwnMultigrid(tolerance=tolerance, limit=limit)
         case Multigrid():
-            LOG.warning("%s", MISSING)
+            LOG.log(logging.WARNING if tell else logging.DEBUG, "%s", MISSING)
             return OwnGradients()
     return operator
 
@@ -167,11 +169,11 @@ def declared(operator: Operator) -> Operator:
     return operator
 
 
-def method_of_ranks(method: Method) -> FixedPoint:
+def method_of_ranks(method: Method, tell: bool = True) -> FixedPoint:
     """Method over ranks: conjugate gradients, and no other method takes over."""
     assert isinstance(method, FixedPoint)
     given = ConjugateGradients() if method.operator == "auto" else method.operator
-    return replace(method, operator=cast(Any, owned(given)), handover=False)
+    return replace(method, operator=cast(Any, owned(given, tell)), handover=False)
 
 
 def method_of_whole(method: Method) -> Method:
