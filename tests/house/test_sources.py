@@ -51,6 +51,7 @@ DOORS = {
     "mumps": ("softway.solve.linear.backends.mumps",),
     "mmgpy": ("softway.adaptivity.new_cells.mmg",),
     "mpi4py": ("softway.ranks.mpi",),
+    "petsc4py": ("softway.ranks.petsc",),
     "mujoco": ("softway.mechanisms.robots.robot_file",),
     "gmsh": (),
     "numba": ("softway.kernels.*",),
