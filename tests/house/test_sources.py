@@ -52,6 +52,7 @@ DOORS = {
     "mmgpy": ("softway.adaptivity.new_cells.mmg",),
     "mpi4py": ("softway.ranks.mpi",),
     "warp": ("softway.kernels.device.door",),
+    "petsc4py": ("softway.ranks.petsc",),
     "mujoco": ("softway.mechanisms.robots.robot_file",),
     "gmsh": (),
     "numba": ("softway.kernels.*",),
