@@ -20,8 +20,7 @@ from softway.model.slab import Slab
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Event:
-    """Event inside a slab: touch, release, start of sticking or start of slip of a contact node, break of a tie at a
-    node, or a finding.
+    """Event inside a slab: touch, release, start of sticking or slip of a contact node, break of a tie, or a finding.
 
     Parameters
     ----------
@@ -29,8 +28,7 @@ class Event:
         Instant inside the slab [s].
     contact, kind, node
         Contact label; ``touch``, ``release``, ``stick`` or ``slip``; node number in its body. A tie has its label and
-        the kind ``break``. A finding of the audit has the names of the bodies for the label and a kind of
-        ``marching.results.finding.KINDS``.
+        the kind ``break``, a finding the names of the bodies and a kind of ``marching.results.finding.KINDS``.
     position
         (d,) position of the node [m].
     velocity_before, velocity_after
@@ -43,8 +41,7 @@ class Event:
     finding
         Sentence of the audit; empty for a contact event.
     bodies
-        Names of the two that touch, the one with the node first; the same twice where a body touches itself.  Empty
-        for other events.
+        Names of the two that touch, the one with the node first, or of one twice; empty for other events.
     """
 
     time: float
@@ -68,12 +65,10 @@ class ContactLedger:
     ----------
     force_n, force_t
         Resultant normal and tangential force over the slab (impulse / h) [N].
-    min_gap
-        Least gap at the end [m].
+    min_gap, count
+        Least gap at the end [m], and number of contact nodes in contact there.
     power_residual
         Sum of F_n v_n dt, eq. (3.9) [J].
-    count
-        Number of contact nodes in contact at the end.
     """
 
     force_n: float
@@ -169,12 +164,11 @@ class Certificate:
     momentum_error, energy_error
         Errors of the balances of this slab [kg m/s], [J].
     gap_nodes, gap_between
-        Gap of the nodes and gap between nodes of all surfaces, from the geometry at the end [m]: minus the deepest
-        overlap, zero where nothing overlaps; not a number in slabs that were not audited.
+        Minus the deepest overlap of all surfaces at nodes and between them, from the geometry at the end [m]; not a
+        number in slabs that were not audited.
     shape
-        Least scaled Jacobian of the cells at the end, one at best: zero or less where a cell has folded, so that its
-        stress is wrong; not a number where no solid has large strains
-        (:meth:`~softway.meshes.cell_shapes.CellShapes.of`).
+        Least scaled Jacobian of the cells at the end: zero or less where one has folded; not a number without solids of
+        large strain (:mod:`softway.meshes.cell_shapes`).
     """
 
     min_gap: float
