@@ -1,8 +1,9 @@
 """What a slab of a small problem costs: compiled, with its steps, with its history, and by the solver for all models.
 
 ``python benchmarks/processes/small_problems.py`` prints the table.  Times are those of the processor, the best of some
-runs.  ``told`` is a run with a callback for each step.  A run has its line of the history and its two probes for each slab, and one frame at the end; what opening and
-closing it takes is left out, by the difference of a long and a short run.  Bars fly, a disc lies on a floor.
+runs.  ``told`` is a run with a callback for each step.  A run has its line of the history and its two probes for each
+slab, and one frame at the end; what opening and closing it takes is left out, by the difference of a long and a short
+run.  Bars fly, a disc lies on a floor.
 """
 
 import tempfile

@@ -22,7 +22,7 @@ from softway.marching.results.step import Ledger, Step
 from softway.marching.slab.step_group import StepGroup
 from softway.marching.start.initial_state import without_contact
 from softway.marching.start.stored_state import require_of_model
-from softway.marching.state.march_state import MarchState, Settings
+from softway.marching.state.march_state import MarchState
 from softway.marching.state.model_state import ModelState, join_states, split_states
 from softway.model.model import Model
 from softway.model.scene import State
@@ -235,23 +235,12 @@ def _start(given: Scenario, initial: State, ledger: Ledger, model: Model) -> Run
 
 
 def _steps(
-    checked: Checked,
-    state: State | MarchState,
-    cancel: Cancel | None,
-    tell: Tell,
-    progress: Watch | MechanismWatch | None,
+    checked: Checked, state: State | MarchState, cancel: Cancel | None, tell: Tell, progress: object
 ) -> Iterator[Step | StepGroup]:
     """March of a checked scenario; steps of each slab only for a callback that asks for them."""
     time = checked.scenario.time
     if cancel is None and (progress is None or isinstance(progress, Occasional)):
-        settings = Settings(
-            until=time.end,
-            step=checked.step,
-            weight=time.weight,
-            method=checked.scenario.solver,
-            control=time.control,
-            tolerance=checked.tolerance,
-        )
+        settings = replace(checked.march_state.settings, step=checked.step, tolerance=checked.tolerance)
         return march_in_groups(checked.model, settings, state=state, trying=Heartbeat(tell))
     return march(
         checked.model,
