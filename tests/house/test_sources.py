@@ -56,7 +56,7 @@ DOORS = {
     "mujoco": ("softway.mechanisms.robots.robot_file",),
     "gmsh": (),
     "numba": ("softway.kernels.*",),
-    "llvmlite": ("softway.kernels.jit.simd",),
+    "llvmlite": ("softway.kernels.jit.simd", "softway.kernels.jit.by_address"),
     "numpy": ("*",),
     "scipy": ("*",),
 }

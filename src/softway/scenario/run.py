@@ -19,7 +19,7 @@ from softway.marching.audit.ledger import initial_ledger as audit
 from softway.marching.march import march, march_in_groups
 from softway.marching.results.step import Ledger, Step
 from softway.marching.slab.step_group import StepGroup
-from softway.marching.state.march_state import MarchState, Settings
+from softway.marching.state.march_state import MarchState
 from softway.marching.state.model_state import split_states
 from softway.model.model import Model
 from softway.model.scene import State
@@ -229,7 +229,7 @@ def _steps(
     state: State | MarchState,
     cancel: Cancel | None,
     tell: Tell,
-    progress: Watch | MechanismWatch | None,
+    progress: object,
     ranks: Ranks | None,
 ) -> Iterator[Step | StepGroup]:
     """March of a checked scenario, over ranks if there are any; steps of each slab only for a callback that asks for
@@ -239,14 +239,7 @@ def _steps(
         return steps_of_ranks(ranks, checked, state, cancel, Heartbeat(tell))
     time = checked.scenario.time
     if cancel is None and (progress is None or isinstance(progress, Occasional)):
-        settings = Settings(
-            until=time.end,
-            step=checked.step,
-            weight=time.weight,
-            method=checked.scenario.solver,
-            control=time.control,
-            tolerance=checked.tolerance,
-        )
+        settings = replace(checked.march_state.settings, step=checked.step, tolerance=checked.tolerance)
         return march_in_groups(checked.model, settings, state=state, trying=Heartbeat(tell))
     return march(
         checked.model,

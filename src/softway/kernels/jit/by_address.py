@@ -30,23 +30,14 @@ class Table(types.Type):
         self.entries = entries
 
 
-@register_default(Table)
-class _Address(models.PrimitiveModel):  # type: ignore[misc]
-    """A table is a pointer."""
-
-    def __init__(self, manager: Any, kind: Table) -> None:
-        super().__init__(manager, kind, ir.IntType(8).as_pointer())
-
-
-@infer_getattr
-class _Entries(AttributeTemplate):  # type: ignore[misc]
-    """Kinds of the entries of a table."""
-
-    key = Table
-
-    def generic_resolve(self, kind: Table, name: str) -> Any:
-        """Kind of an entry."""
-        return kind.entries.get(name)
+register_default(Table)(lambda manager, kind: models.PrimitiveModel(manager, kind, ir.IntType(8).as_pointer()))
+infer_getattr(
+    type(
+        "Entries",
+        (AttributeTemplate,),
+        {"key": Table, "generic_resolve": lambda self, kind, name: kind.entries.get(name)},
+    )
+)
 
 
 @lower_getattr_generic(Table)
