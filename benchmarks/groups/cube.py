@@ -146,7 +146,7 @@ def large(asked: Asked) -> Iterator[Figure]:
 
 def _million(asked: Asked) -> Iterator[Figure]:
     """A million unknowns into the touch."""
-    told = [sys.executable, str(HERE / "million.py"), "--cells", str(asked.size(69, 4)), "--slabs", "6"]
+    told = [sys.executable, str(HERE / "large" / "million.py"), "--cells", str(asked.size(69, 4)), "--slabs", "6"]
     try:
         found = line(told, environment(2))
     except Absent as why:

@@ -22,7 +22,7 @@ PILES = {"3k": (8, 4), "30k": (17, 10)}
 
 def told(*words: object) -> dict[str, Any]:
     """What ``contact_rates.py`` prints."""
-    command = [sys.executable, str(HERE / "contact_rates.py"), *map(str, words)]
+    command = [sys.executable, str(HERE / "large" / "contact_rates.py"), *map(str, words)]
     try:
         return line(command, environment(1))
     except Absent as why:

@@ -40,8 +40,8 @@ PARTS, METHODS = "benchmarks/groups/parts.py", "benchmarks/groups/methods.py"
 BLOCKS = "benchmarks/groups/blocks.py"
 RATES = (
     "benchmarks/groups/rates.py",
-    "benchmarks/processes/contact_counts.py",
-    "benchmarks/processes/contact_rates.py",
+    "benchmarks/processes/large/contact_counts.py",
+    "benchmarks/processes/large/contact_rates.py",
     "benchmarks/groups/peers.py",
     "benchmarks/peers",
 )

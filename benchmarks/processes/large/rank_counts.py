@@ -1,4 +1,4 @@
-"""Traffic and memory of a march over ranks, counted: ``python benchmarks/processes/rank_counts.py --ranks 8``.
+"""Traffic and memory of a march over ranks, counted: ``python benchmarks/processes/large/rank_counts.py --ranks 8``.
 
 A cube of hexahedra falls onto an inclined plane.  The ranks are threads of one process, so that any number can be
 counted on any machine; times are not measured.  The counts are printed as JSON, a list with one entry a rank.

@@ -1,6 +1,6 @@
 """Time and memory of an inner step and of a slab over ranks, from counted traffic.
 
-``python benchmarks/processes/ranks_model.py --cells 64 --ranks 64`` partitions a cube of hexahedra as a run does,
+``python benchmarks/processes/large/ranks_model.py --cells 64 --ranks 64`` partitions a cube of hexahedra as a run does,
 counts what each rank holds and sends, and prints the model of docs/theory/solver/ranks.md.  ``--check`` marches a small
 cube on eight ranks as threads, counts its exchanges, bytes and sums, and prints them beside those of the model.
 """

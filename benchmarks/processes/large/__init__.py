@@ -1,0 +1,1 @@
+"""Problems of a workstation and of a cluster."""
