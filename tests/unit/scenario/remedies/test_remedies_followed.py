@@ -87,6 +87,7 @@ REASONS = {
     "scenario/checks/check.py: _model": "ties of a mesh file: tests/unit/meshes/files/abaqus/test_ties.py",
     "heat/coupled/strain/expansion.py: thermal_stiffness": "a law of one's own that does not resist a change of volume",
     "scenario/run_ranks.py: require_ranks": "with --ranks only: tests/unit/ranks/test_launch.py",
+    "scenario/run_ranks.py: ranks_of": "with --ranks of resume only: tests/unit/ranks/test_processes.py",
     "marching/state/march_state.py: fitting": "a state of another scene, from Python",
     "marching/state/model_state.py: join_states": "a state of another scene, from Python",
     "marching/rules/slab_rule.py: require_nodal": "unknowns from Python: tests/contracts/test_own_dofs.py",
