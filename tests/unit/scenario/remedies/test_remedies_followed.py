@@ -92,6 +92,7 @@ REASONS = {
     "solve/operators/device.py: require": DEVICE,
     "solve/operators/device.py: require_served": DEVICE,
     "scenario/run_ranks.py: require_ranks": "with --ranks only: tests/unit/ranks/test_launch.py",
+    "scenario/run_ranks.py: ranks_of": "with --ranks of resume only: tests/unit/ranks/test_processes.py",
     "marching/state/march_state.py: fitting": "a state of another scene, from Python",
     "marching/state/model_state.py: join_states": "a state of another scene, from Python",
     "marching/rules/slab_rule.py: require_nodal": "unknowns from Python: tests/contracts/test_own_dofs.py",

@@ -58,10 +58,9 @@ def run(
     allow_python
         Allow module:name in the scenario to run code of installed modules, not only of modules next to the file.
     ranks
-        Number of processes that compute it together; after mpirun its number is taken (docs/reference/runs/cluster.md).
+        Number of processes that compute it together; by default that of mpirun (docs/reference/runs/cluster.md).
     """
-    code = begun(ranks, sys.argv[1:])
-    if code is not None:
+    if (code := begun(ranks, sys.argv[1:])) is not None:
         return code
     listen(verbose)
     folder, team = out or free(Path("runs") / file.stem), ranks_here(ranks)
@@ -70,8 +69,7 @@ def run(
     with among(team):
         if team is not None and team.rank:
             return assist(team, read)
-        checked = read()
-    scales(checked, console)
+        scales(checked := read(), console)
     try:
         with among(team), progress_of(checked, console) as progress:
             tell = teller(console)
