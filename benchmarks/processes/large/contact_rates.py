@@ -1,8 +1,8 @@
 """Slabs a second while bodies stay in contact, and what they are bound by.
 
 ``python benchmarks/processes/large/contact_rates.py held --cells 9 --law linear --slabs 60`` marches a cube that its
-weight presses onto a floor from the start on.  ``plates --cells 8 --layers 4 --slabs 12`` marches a pile of plates, and from
-the same state the same plates without contact.  Each prints one line of JSON.
+weight presses onto a floor from the start on.  ``plates --cells 8 --layers 4 --slabs 12`` marches a pile of plates, and
+from the same state the same plates without contact.  Each prints one line of JSON.
 """
 
 import argparse

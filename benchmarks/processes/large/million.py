@@ -1,9 +1,9 @@
 """A neo-Hookean cube of a million unknowns on one workstation: dropped onto a floor, through its touch.
 
 ``python benchmarks/processes/large/million.py [--cells 69] [--cell tet4] [--operator ConjugateGradients] [--slabs N]``
-prints a line of JSON for the built model and for each slab: time by the clock and of the processors since the last line [s],
-greatest memory so far [MB], iterations, error of the energy relative to that at the start, contact force [N].  The last
-line sums up.
+prints a line of JSON for the built model and for each slab: time by the clock and of the processors since the last line
+[s], greatest memory so far [MB], iterations, error of the energy relative to that at the start, contact force [N].  The
+last line sums up.
 """
 
 import argparse
