@@ -11,6 +11,8 @@ from softway.cluster.rank_mesh import local_nodes
 from softway.cluster.rank_model import held_by, rank_model
 from softway.cluster.rank_state import RankNumbers, on_all, on_rank, rank_numbers
 from softway.errors import Cancel
+from softway.marching.audit.folded_cells import WatchedCells, watched_cells
+from softway.marching.results.finding import FLAT_CELL, INVERTED
 from softway.marching.results.step import Event, Step
 from softway.marching.results.step_states import KnownStates
 from softway.marching.results.trying import TryWatch
@@ -18,11 +20,14 @@ from softway.marching.slab.slab_step import stepper
 from softway.marching.slabs import slabs
 from softway.marching.start.preparation import prepare
 from softway.marching.state.march_state import MarchState, Settings
-from softway.marching.state.model_state import split_states
+from softway.marching.state.model_state import ModelState, split_states
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.ranks.interface import Ranks
 from softway.ranks.partition import Holding
+
+OF_CELLS = FLAT_CELL, INVERTED
+"""Findings on cells: a rank knows its own cells alone, so that they are looked for in the whole model."""
 
 
 def march_on(
@@ -58,20 +63,21 @@ def march_on(
     own = replace(own, ends=prepared.stepper.ends)
     start = prepared.march_state
     begin = on_rank(replace(start, settings=replace(start.settings, method=settings.method)), numbers)
-    whole = None if ranks.rank else _Whole(model, split_states(model, start.state))
+    whole = None if ranks.rank else _Whole(watched_cells(model), start.state, split_states(model, start.state))
     del model, state, prepared, start  # what the other ranks hold of the whole
     for step in slabs(own, begin):
         reached = _on_whole(step, whole, numbers, ranks)
         if whole is not None and reached is not None:
-            whole = replace(whole, before=reached.after)
+            whole = replace(whole, now=reached.march_state.state, before=reached.after)
         yield reached
 
 
 @dataclass(frozen=True, slots=True, eq=False)
 class _Whole:
-    """The whole model, and its state before a slab."""
+    """Cells of the whole model, and its state before a slab."""
 
-    model: Model
+    shapes: WatchedCells
+    now: ModelState
     before: State
 
 
@@ -80,15 +86,16 @@ def _on_whole(step: Step, whole: _Whole | None, numbers: RankNumbers, ranks: Ran
     found = on_all(step.march_state, numbers, ranks, np.concatenate(list(step.reactions.values())))
     if found is None or whole is None:
         return None
-    (march_state, support), model = found, whole.model
+    (march_state, support), model = found, whole.shapes.model
     states = KnownStates(
         before=whole.before,
         after=split_states(model, march_state.state),
         reactions=model.split(support),
         march_state=march_state,
     )
-    events = tuple(_in_body(event, model, numbers.held) for event in step.events)
-    return replace(step, model=model, events=events, states=states)
+    events = [_in_body(event, model, numbers.held) for event in step.events if event.kind not in OF_CELLS]
+    bad = whole.shapes.findings(step.certificate, whole.now, march_state.state)
+    return replace(step, model=model, events=(*events, *bad), states=states)
 
 
 def _in_body(event: Event, model: Model, held: Holding) -> Event:

@@ -8,6 +8,7 @@ import pytest
 import softway as sw
 from softway.cluster.march import march_on
 from softway.laws.plasticity.rate_dependence import Perzyna
+from softway.marching.results.finding import FLAT_CELL, INVERTED
 from softway.marching.results.step import Step
 from softway.marching.state.march_state import MarchState, Settings
 from softway.marching.state.step_control import StepControl
@@ -133,3 +134,22 @@ def test_a_plastic_block_flows_and_its_history_is_whole() -> None:
 @pytest.mark.parametrize("tolerance", [None, 1e-3])
 def test_slabs_whose_length_is_chosen_have_the_same_bits(tolerance: float | None) -> None:
     require_equal(thrown(), replace(GIVEN, step="auto", tolerance=tolerance))
+
+
+def test_a_cell_that_folds_is_told_as_on_one_process() -> None:
+    """A cell belongs to one rank; rank 0 tells it with the numbers of the whole body."""
+    block = sw.Solid(
+        mesh=sw.meshes.Rectangle(size=(1.0, 1.0), cells=(5, 5)),
+        material=sw.J2(E=1e4, nu=0.3, yield_stress=10.0),
+        density=1.0,
+        velocity=sw.bodies.Uniform(value=(0.0, 40.0)),
+        dilatation="mean",
+    )
+    punch = sw.Tool(shape=sw.obstacles.Sphere(centre=(0.45, 1.301), radius=0.3))
+    model = build(sw.Scene(bodies={"block": block, "punch": punch}, contacts=(sw.Contact(between=("block", "punch")),)))
+    given = replace(GIVEN, until=0.005)
+    theirs = [e for s in sw.march(model, until=given.until, step=given.step, method=GIVEN.method) for e in s.events]
+    one, three = ([e for s in over(size, model, given) for e in s.events if e.finding] for size in (1, 3))
+    assert {e.kind for e in one} & {FLAT_CELL, INVERTED}
+    assert [(e.node, e.time, e.finding) for e in three] == [(e.node, e.time, e.finding) for e in one]
+    assert [(e.kind, e.node) for e in one] == [(e.kind, e.node) for e in theirs if e.finding]
