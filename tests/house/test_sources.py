@@ -63,6 +63,7 @@ DOORS = {
 
 # Bases that bring no behaviour of ours: interfaces, errors, records.
 PLAIN_BASES = {
+    "AttributeTemplate",
     "Protocol",
     "Generic",
     "NamedTuple",

@@ -31,13 +31,17 @@ class Table(types.Type):
 
 
 register_default(Table)(lambda manager, kind: models.PrimitiveModel(manager, kind, ir.IntType(8).as_pointer()))
-infer_getattr(
-    type(
-        "Entries",
-        (AttributeTemplate,),
-        {"key": Table, "generic_resolve": lambda self, kind, name: kind.entries.get(name)},
-    )
-)
+
+
+@infer_getattr
+class _Entries(AttributeTemplate):
+    """Types of the entries of a table by name."""
+
+    key = Table
+
+    def generic_resolve(self, kind: Any, name: str) -> Any:
+        """Type of an entry; None for another name."""
+        return kind.entries.get(name)
 
 
 @lower_getattr_generic(Table)
