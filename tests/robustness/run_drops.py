@@ -36,6 +36,7 @@ from softway.studies.processes import Complaint, answers
 ROOT = Path(__file__).parents[2]
 SECONDS = 300
 """Processor time of one drop [s]."""
+SHAPE = "certificate.shape"
 
 
 class TooLong(BaseException):
@@ -116,9 +117,14 @@ def asking(given: Drop, lines: Sequence[str]) -> Drop:
 
 
 def _unrecorded(done: Run) -> str:
-    """What in the records is not a number; empty where all is."""
-    history = done.history
-    bad = [name for name in history if "gap" not in name and not np.isfinite(history[name][1:]).all()]
+    """What in the records is not a number; empty where all is.
+
+    Linear bodies have no shapes of cells: these are numbers in all slabs or in none.
+    """
+    history = {name: values[1:] for name, values in done.history.items() if "gap" not in name}
+    if SHAPE in history and np.isnan(history[SHAPE]).all():
+        del history[SHAPE]
+    bad = [name for name, values in history.items() if not np.isfinite(values).all()]
     return f"not a number in {', '.join(bad)}" if bad else ""
 
 
