@@ -168,7 +168,7 @@ class Certificate:
         number in slabs that were not audited.
     shape
         Least scaled Jacobian of the cells at the end: zero or less where one has folded; not a number without solids of
-        large strain (:mod:`softway.meshes.cell_shapes`).
+        large strain.
     """
 
     min_gap: float
