@@ -15,7 +15,13 @@ from softway.marching.remeshing.forming.formable import formable, replacements
 from softway.meshes.adaptive.adapt import Adapt
 
 
-@pytest.mark.parametrize("material", [LAW, sw.J2(E=1e3, nu=0.3, yield_stress=1.0)], ids=["norton_hoff", "j2"])
+@pytest.mark.parametrize(
+    "material",
+    [
+        pytest.param(LAW, id="norton_hoff", marks=pytest.mark.slow),
+        pytest.param(sw.J2(E=1e3, nu=0.3, yield_stress=1.0), id="j2"),
+    ],
+)
 def test_force_volume_and_energy_through_new_meshes(material: Material) -> None:
     kept = forged(KEPT, 0.3, 15, (6, 5), material)
     new = forged(sw.meshes.Remesh(ratio=1.3, shortened=0.0), 0.3, 15, (6, 5), material)

@@ -106,7 +106,7 @@ def test_bar_of_case_d09_with_new_cells() -> None:
     assert abs(steps[-1].ledger.remeshing) < 1e-3 * whole
 
 
-@pytest.mark.parametrize("cell", ["tri3", "tri6"])
+@pytest.mark.parametrize("cell", ["tri3", pytest.param("tri6", marks=pytest.mark.slow)])
 def test_press_with_new_cells(cell: str) -> None:
     steps = pressed(Remesh(by="new cells", quality=0.5), 0.4, 20, cell)
     changes = [one for one in steps if one.exchanges]
@@ -221,6 +221,7 @@ def matter_errors(whole: list[sw.Step], kept: sw.Step) -> list[float]:
     return [float(np.linalg.norm(way, axis=1).mean()) / GIVEN["until"] for way in (gone, back)]
 
 
+@pytest.mark.slow
 def test_the_matter_converges_on_other_cells(whole: list[sw.Step]) -> None:
     """On cells of half the size the errors are less than half, those of one order."""
     fine, kept = (list(sw.march(press(how, cells=(12, 10)), **GIVEN)) for how in (HOW, KEPT))
@@ -229,6 +230,7 @@ def test_the_matter_converges_on_other_cells(whole: list[sw.Step]) -> None:
     assert errors[1][0] < 0.5 * errors[0][0] and errors[1][1] < 0.5 * errors[0][1]
 
 
+@pytest.mark.slow
 def test_a_failed_change_waits_until_the_cells_are_a_fifth_worse(monkeypatch: pytest.MonkeyPatch) -> None:
     """Without a fit, the number of tries is that of the fifths that the worst cell loses; states are resumed alike."""
     tried: list[float] = []
