@@ -1,5 +1,6 @@
 """Sums over nodes of one's own: a march takes them from its vector space only."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -44,6 +45,9 @@ class Halves:
         self._halves("totals", density)
         return np.array([self.total(density[rows]) for rows in self.local.solids])
 
+    def totals_of(self, densities: Sequence[np.ndarray]) -> np.ndarray:
+        return np.array([self.totals(density) for density in densities])
+
     def dot(self, a: np.ndarray, b: np.ndarray) -> float:
         return sum(self.local.dot(*part) for part in self._halves("dot", a, b))
 
@@ -53,6 +57,9 @@ class Halves:
     def products(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
         one, other = self._halves("products", a, b)
         return self.local.products(*one) + self.local.products(*other)
+
+    def products_of(self, a: np.ndarray, vectors: Sequence[np.ndarray]) -> tuple[np.ndarray, ...]:
+        return tuple(self.products(a, b) for b in vectors)
 
     def works(self, forces: np.ndarray, motion: np.ndarray) -> np.ndarray:
         return np.array([self.total(f * motion) for f in forces])
@@ -66,6 +73,9 @@ class Halves:
 
     @property
     def of_unknowns(self) -> "Halves":
+        return self
+
+    def among(self, rows: slice | np.ndarray) -> "Halves":
         return self
 
     def filled(self, field: np.ndarray) -> np.ndarray:

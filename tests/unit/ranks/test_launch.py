@@ -41,9 +41,9 @@ def test_no_ranks_at_all(file: Path, capsys: pytest.CaptureFixture[str]) -> None
 
 
 def test_a_scenario_for_one_rank_only(file: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    rough = "contacts[0].friction={kind='Coulomb', mu=0.3}"
-    assert main(["run", str(file), "--ranks", "1", "--set", rough]) == 2
-    assert "contacts: runs on one rank only: friction" in capsys.readouterr().err
+    shock = "bodies.block.shock={kind='BulkViscosity'}"
+    assert main(["run", str(file), "--ranks", "1", "--set", shock]) == 2
+    assert "bodies.block.shock: runs on one rank only: a bulk viscosity" in capsys.readouterr().err
 
 
 def test_rigid_bodies_run_on_one_rank(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

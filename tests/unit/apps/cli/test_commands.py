@@ -15,6 +15,7 @@ import softway.scenario.run
 from softway.apps import cli
 from softway.apps.cli import commands
 from softway.errors import NumericsError
+from softway.marching.slab.step_group import in_steps
 from softway.record.run import Run
 
 BAR = """
@@ -150,15 +151,15 @@ def test_an_earlier_run_stays(file, capsys):
     ],
 )
 def test_a_run_cut_short_stays_readable(file, capsys, monkeypatch, error, code, reason):
-    march = softway.scenario.run.march
+    march = softway.scenario.run.march_in_groups
 
     def short(*given, **named):
-        for k, step in enumerate(march(*given, **named)):
+        for k, step in enumerate(in_steps(march(*given, **named))):
             if k == 10:
                 raise error
             yield step
 
-    monkeypatch.setattr(softway.scenario.run, "march", short)
+    monkeypatch.setattr(softway.scenario.run, "march_in_groups", short)
     assert cli.main(["run", "bar.toml", "--out", "made", "-q"]) == code
     assert "made" in capsys.readouterr().err
     run = Run(Path("made"))
@@ -191,8 +192,8 @@ def test_progress_on_a_terminal(file, monkeypatch):
     checked = check(load(file))
     with cli_progress.progress_of(checked, Console(file=screen, force_terminal=True, width=100)) as progress:
         run.run(checked, progress=progress)
-        assert progress.display.live.is_started
-    assert not progress.display.live.is_started
+        assert progress.watch.display.live.is_started
+    assert not progress.watch.display.live.is_started
     assert "energy error" in screen.getvalue() and "ETA" in screen.getvalue()
     with cli_progress.progress_of(checked, Console(file=screen)) as nobody:
         assert nobody is None

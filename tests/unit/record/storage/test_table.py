@@ -38,7 +38,10 @@ def test_history_header_is_name_and_unit(bar, tmp_path):
     open_history(tmp_path, bar.opening()).close()
     header = (tmp_path / "history.csv").read_text().splitlines()[0].split(",")
     assert header[:5] == ["time [s]", "h [s]", "iterations [1]", "pairs [1]", "contraction [ratio]"]
-    assert header[16] == "contact.part.surface-floor.force_n [N]" and header[28] == "tip [m]"
+    assert header[16] == "contact.part.surface-floor.force_n [N]" and header[28:30] == [
+        "certificate.shape [ratio]",
+        "tip [m]",
+    ]
     assert header[20] == "certificate.min_gap [m]" and header[25] == "certificate.energy_error [J]"
 
 
