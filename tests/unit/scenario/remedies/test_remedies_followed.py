@@ -139,7 +139,7 @@ REASONS = {
     "meshes/remeshed/remeshed_mesh.py: require_of": "damaged: tests/unit/marching/remeshing/forming/test_continued.py",
     "meshes/remeshed/remesh.py: __post_init__": FORGED,
     "scenario/files.py: load": "millions of characters",
-    "scenario/checks/stored_run.py: _require_state": "of a mechanism: tests/unit/scenario/mechanisms/test_resumed_runs.py",
+    "scenario/checks/stored_run.py: _require_state": "mechanisms: tests/unit/scenario/mechanisms/test_resumed_runs.py",
     "scenario/run_rigid.py: _require_state": "and of solids: the same",
     "scenario/run.py: stored": "run folders: tests/unit/scenario/runs/test_resume.py",
     "scenario/text/reader.py: _scalar": "a type that no key of a scenario has",
