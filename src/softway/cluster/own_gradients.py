@@ -22,6 +22,7 @@ from softway.solve.linear.conjugate_gradients import Gradients
 from softway.solve.linear.interface import Analysis
 from softway.solve.methods.fixed_point import FixedPoint
 from softway.solve.operators import ConjugateGradients, Multigrid, Operator
+from softway.solve.operators.conjugate_gradients import PRICE
 from softway.solve.operators.interface import BuiltOperator
 from softway.solve.operators.matrix_free import nodal
 
@@ -30,8 +31,6 @@ MISSING = (
     "petsc4py is not installed: conjugate gradients with the blocks of the nodes in place of multigrid, slower for "
     f"long slabs; {REMEDY}"
 )
-PRICE = 4.0
-"""Cost of the matrix, in iterations."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
