@@ -6,7 +6,7 @@ from pathlib import Path
 
 import akantu as aka
 import numpy as np
-from cube import DENSITY, NU, Clock, E, chosen, lattice, slab, tetrahedra
+from cube import DENSITY, NU, Clock, E, chosen, lattice, tetrahedra
 
 MATERIALS = """
 material elastic [
@@ -42,12 +42,26 @@ SAFETY = 0.5
 """Step over the stable one of the bulk; the penalty makes it shorter."""
 
 
+def block(n, gap):
+    """Corners (p, 3) and cells (e, 8) of a block below the cube: a layer of cells as wide as those of the cube.
+
+    Akantu looks for the plane only in the faces at the node that is next to that of the cube: with faces wider than
+    those of the cube it finds no contact for many nodes.  The layer is moved aside, so that no node lies on an edge.
+    """
+    points, cells = lattice(n + 4)
+    layer = cells[points[cells, 2].min(axis=1) == 0.0]
+    used, local = np.unique(layer, return_inverse=True)
+    corners = points[used] * (n + 4) / n - np.array([1.63, 1.74, 0.0]) / n
+    corners[:, 2] = np.where(corners[:, 2] > 0.0, -gap, -gap - 0.25)
+    return corners, local.reshape(layer.shape)
+
+
 def written(n, gap, file):
     """Write the mesh, and give the number of points of the cube."""
     points, cubes = lattice(n)
-    block = np.arange(8) + len(points)
-    everything = np.vstack([points, slab(gap)])
-    bulk, plate = tetrahedra(cubes), tetrahedra(block[None])
+    corners, blocks = block(n, gap)
+    everything = np.vstack([points, corners])
+    bulk, plate = tetrahedra(cubes), tetrahedra(blocks + len(points))
 
     def sides(cells, height):
         faces = cells[:, [[0, 2, 1], [0, 1, 3], [1, 2, 3], [0, 3, 2]]].reshape(-1, 3)
