@@ -106,6 +106,7 @@ def main():
     height, cells = points[:, 2], tetrahedra(cubes)
     weights = np.bincount(cells.ravel(), minlength=count) * DENSITY / (4 * len(cells))
     solid.getExternalForce()[:count, 2] = -ask.load * weights
+    solid.getAcceleration()[:count, 2] = -ask.load
     before = -ask.speed
     for k in range(round(ask.end / step)):
         clock.step(both.solveStep)

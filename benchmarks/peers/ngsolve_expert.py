@@ -37,6 +37,7 @@ def main():
     mass = inertia(space, ask.mass)
     vertical = 2 * (space.ndof // 3) + np.arange(count)
     motion = Motion(ask, form, mass, vertical, tangent, KEPT)
+    motion.acceleration.FV().NumPy()[vertical] = -ask.load
     lower = lattice(ask.cells)[0][:, 2]
     below = -(ng.z + ng.BoundaryFromVolumeCF(motion.shift)[2] + ask.gap)
     pressing = ng.IfPos(below, ask.penalty * below, 0)
