@@ -18,8 +18,9 @@ from softway.solve.equations.slab_values import Evaluation
 from softway.solve.methods.anderson import Anderson
 from softway.solve.methods.eliminated_step import contact_steps, pushed_exactly
 from softway.solve.methods.facet_check import check_facets
-from softway.solve.methods.iteration import Guess, Iterate, lost
+from softway.solve.methods.iteration import FINEST, Guess, Iterate, confirmed, lost
 from softway.solve.methods.newton import Newton
+from softway.solve.methods.one_solution import FirstResidual
 from softway.solve.methods.renewal import RETREATS, WINDOW, Course
 from softway.solve.operators import ConjugateGradients, Device, Factored, MatrixFree, Multigrid
 from softway.solve.operators.operator_refresh import refreshed, renewed_inside
@@ -137,6 +138,7 @@ class FixedPoint:
         steps = contact_steps(system, frozen)
         mixing = _Mixing(Anderson(self.depth, space.of_unknowns), frozen, space, pushed_exactly(system, frozen))
         last, stuck, part, plain = np.inf, 0, 1.0, np.zeros(0)
+        first = None if guess.near else FirstResidual.of(system, frozen, q, end, impulse)
         for count in itertools.count():
             system = system.with_kept_facets_after(end.displacement, active, count)
             if not space.every(np.isfinite(dofs.forces(end.residual))):
@@ -168,6 +170,10 @@ class FixedPoint:
             mixed, impulse = mixing.mixed((before, impulse), (system.unknowns(new), step.impulse))
             system, q = system.at(before + part * (mixed - before) if part < 1.0 else mixed)
             end = system.evaluate(q, impulse, end)
+            if count == 0 and first is not None:
+                change = max(first.change(system, frozen, q, end, impulse, change), 2.0 * FINEST * space.greatest(q))
+                if change <= self.tolerance * space.greatest(q, system.start.velocity):
+                    yield confirmed(Guess(q=q, impulse=impulse, active=active, memory=memory), system, end, plain, change)
 
 
 def _next_part(part: float, swings: bool, system: SlabEquations) -> float:
