@@ -18,7 +18,7 @@ from softway.solve.equations.slab_values import Evaluation
 from softway.solve.methods.anderson import Anderson
 from softway.solve.methods.eliminated_step import contact_steps, pushed_exactly
 from softway.solve.methods.facet_check import check_facets
-from softway.solve.methods.iteration import FINEST, Guess, Iterate, confirmed, lost
+from softway.solve.methods.iteration import Guess, Iterate, lost
 from softway.solve.methods.newton import Newton
 from softway.solve.methods.one_solution import FirstResidual
 from softway.solve.methods.renewal import RETREATS, WINDOW, Course
@@ -171,9 +171,8 @@ class FixedPoint:
             system, q = system.at(before + part * (mixed - before) if part < 1.0 else mixed)
             end = system.evaluate(q, impulse, end)
             if count == 0 and first is not None:
-                change = max(first.change(system, frozen, q, end, impulse, change), 2.0 * FINEST * space.greatest(q))
-                if change <= self.tolerance * space.greatest(q, system.start.velocity):
-                    yield confirmed(Guess(q=q, impulse=impulse, active=active, memory=memory), system, end, plain, change)
+                now = Guess(q=q, impulse=impulse, active=active, memory=memory)
+                yield from first.confirmed(now, system, end, (plain, change), self.tolerance)
 
 
 def _next_part(part: float, swings: bool, system: SlabEquations) -> float:

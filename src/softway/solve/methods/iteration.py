@@ -63,22 +63,6 @@ def lost(guess: Guess, system: SlabEquations) -> Iterate:
     )
 
 
-def confirmed(guess: Guess, system: SlabEquations, end: Evaluation, free: Array, change: float) -> Iterate:
-    """Iterate of a guess whose evaluation ``end`` bounds the change of another one [m/s]; ``free`` as in it."""
-    at = guess
-    return Iterate(
-        q=at.q,
-        change=change,
-        impulse=at.impulse,
-        active=at.active,
-        free=free,
-        memory=at.memory,
-        system=system,
-        sound=True,
-        end=end,
-    )
-
-
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Solution:
     """Converged slab: last iterate, its evaluation, free normal components (m,) of the first iterate, and mean ratio of

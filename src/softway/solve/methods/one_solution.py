@@ -4,12 +4,14 @@ The residual of the next iterate tells so, and the second solution that would on
 (docs/theory/solver/solver.md).
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from softway.arrays import Array
 from softway.solve.constraints.compliance import FrozenOperator
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.equations.slab_values import Evaluation
+from softway.solve.methods.iteration import FINEST, Guess, Iterate
 
 SAFE = 1e4
 """Factor by which the operator may amplify what is left of the residual more than the residual itself."""
@@ -31,14 +33,31 @@ class FirstResidual:
         plain = system.model.linear and not system.model.companions and system.contact.conditions.slipping.frictionless
         return cls(_left(system, frozen, q, end, impulse)) if served and plain else None
 
-    def change(
-        self, system: SlabEquations, frozen: FrozenOperator, q: Array, end: Evaluation, impulse: Array, first: float
-    ) -> float:
-        """Bound of the change [m/s] that another solution would make at q, if the first one made the change ``first``
-        [m/s] of the first residual.
+    def confirmed(
+        self, now: Guess, system: SlabEquations, end: Evaluation, made: tuple[Array, float], tolerance: float
+    ) -> Iterator[Iterate]:
+        """The values ``now``, with their evaluation ``end``, as a second iterate if another solution would change them
+        by less than the tolerance; none otherwise.
+
+        ``made`` are the normal components (m,) of the first solution without contact, and the change that it made of
+        the first residual [m/s].
         """
-        left = _left(system, frozen, q, end, impulse)
-        return SAFE * first * left / self.greatest if self.greatest > 0.0 else first
+        frozen, space = now.memory.frozen, system.model.space
+        assert frozen is not None
+        left = _left(system, frozen, now.q, end, now.impulse) / max(self.greatest, 1e-300)
+        change = max(SAFE * made[1] * left, 2.0 * FINEST * space.greatest(now.q))  # more accurate ones may follow
+        if change <= tolerance * space.greatest(now.q, system.start.velocity):
+            yield Iterate(
+                q=now.q,
+                change=change,
+                impulse=now.impulse,
+                active=now.active,
+                free=made[0],
+                memory=now.memory,
+                system=system,
+                sound=True,
+                end=end,
+            )
 
 
 def _left(system: SlabEquations, frozen: FrozenOperator, q: Array, end: Evaluation, impulse: Array) -> float:
