@@ -280,12 +280,12 @@ class SlabContacts:
             return self.at(u)
         x0, x1 = (contacts.space.gather(contacts.points + v) for v in (search.u0, search.u1))
         tools = [m for m in self.surfaces if isinstance(m, ToolContact)]
-        methods = () if of_tools else contacts.overlap_methods
+        methods: tuple[SurfacePair, ...] = () if of_tools else contacts.overlap_methods
         of = () if of_tools else contacts.overlap_contact
         surfaces = (*tools, *search.all_met(methods, of, contacts.margins, (x0, x1)))
         numbers = [contacts.contact[i] for i in self._tool_rows()]
         numbers += [np.full(len(m.node), k) for m, k in zip(methods, of, strict=True)]
-        node = np.concatenate([np.zeros(0, int), *(m.node for m in (*tools, *methods))])
+        node = np.concatenate([np.zeros(0, int), *(m.node for m in tools), *(m.node for m in methods)])
         both = node, np.concatenate([np.zeros(0, int), *numbers])
         frictionless = TangentialRows.none(len(node), *u.shape)
         return joined_rows(surfaces, (contacts.points + u, u), both, contacts.labels, frictionless)
