@@ -123,19 +123,17 @@ class ContactSet:
             return self._known_alone(None)
         x0, x1 = self.space.gather(self.points + u0), self.space.gather(self.points + u1)
         search = SlabSearch(u0=u0, u1=u1, start=start, end=end, reach=self.reach, margins=margins)
-        apart = search.apart(self.margins, x0, x1)
-        named = (self.methods, self.numbers), (self.overlap_methods, self.overlap_contact)
-        found, overlap = (
-            tuple(search.met(m, k, apart, x0, x1) for m, k in zip(*pairs, strict=True)) for pairs in named
-        )
-        met = any(m.found for m in (*found, *overlap) if not isinstance(m, ToolContact))
+        found = search.all_met(self.methods, self.numbers, self.margins, (x0, x1))
+        met = any(m.found for m in found if not isinstance(m, ToolContact))
         if margins is not None and self.known_rows is not None and not met:
-            return self._known_alone(search)
-        return SlabContacts(contacts=self, surfaces=found, overlap_surfaces=overlap, node=self.node, search=search)
+            overlap = search.all_met(self.overlap_methods, self.overlap_contact, self.margins, (x0, x1))
+            if not any(m.found for m in overlap):
+                return self._known_alone(search)
+        return SlabContacts(contacts=self, surfaces=found, node=self.node, search=search)
 
     def _known_alone(self, search: SlabSearch | None) -> "SlabContacts":
         """Contacts of a slab in which the known rows alone have opponents."""
-        alone = SlabContacts(contacts=self, surfaces=(), overlap_surfaces=(), node=self.node, search=search)
+        alone = SlabContacts(contacts=self, surfaces=(), node=self.node, search=search)
         return replace(alone, fixed_rows=self.known_rows)
 
     @property
@@ -160,7 +158,7 @@ class ContactSet:
         if not all(m.fixed for m in self.methods if isinstance(m, NodeToTool)):
             return replace(self, known=known)
         tools = (m.during(0.0, 0.0) if isinstance(m, NodeToTool) else NoPairs(rows=len(m.node)) for m in self.methods)
-        alone = SlabContacts(contacts=self, surfaces=tuple(tools), overlap_surfaces=(), node=self.node)
+        alone = SlabContacts(contacts=self, surfaces=tuple(tools), node=self.node)
         return replace(self, known=known, known_rows=alone.at(np.zeros_like(self.points)))
 
     def cleared(self, u: Array, apart: Sequence[bool]) -> "ContactSet":
@@ -194,8 +192,8 @@ class SlabContacts:
     ----------
     contacts
         Contacts of the model.
-    surfaces, overlap_surfaces
-        Surfaces that may come into contact, by the methods and by the overlap methods of ``contacts``.
+    surfaces
+        Surfaces that may come into contact, by the methods of ``contacts``.
     node
         Slave node (m,) of each row.
     fixed_rows
@@ -206,7 +204,6 @@ class SlabContacts:
 
     contacts: ContactSet
     surfaces: tuple[PairedSurfaces, ...]
-    overlap_surfaces: tuple[PairedSurfaces, ...]
     node: IntArray
     fixed_rows: ContactRows | None = None
     search: SlabSearch | None = None
@@ -274,21 +271,24 @@ class SlabContacts:
         rows = self.at(u)
         return -float(rows.gap(u)[rows.near].min(initial=np.inf))
 
-    def overlap_rows(self, u: Array) -> ContactRows:
-        """Rows that detect every overlap of nodes with facets, at the displacement ``u`` (n, d); without friction where
-        they are not the contact rows.
+    def overlap_rows(self, u: Array, of_tools: bool = False) -> ContactRows:
+        """Rows that detect every overlap of nodes with facets, at the displacement ``u`` (n, d), or those ``of_tools``
+        only; without friction where they are not the contact rows.
         """
-        if not self.overlap_surfaces:
+        contacts, search = self.contacts, self.search
+        if search is None or self.fixed_rows is not None or not contacts.overlap_methods:
             return self.at(u)
-        contacts = self.contacts
+        x0, x1 = (contacts.space.gather(contacts.points + v) for v in (search.u0, search.u1))
         tools = [m for m in self.surfaces if isinstance(m, ToolContact)]
+        methods: tuple[SurfacePair, ...] = () if of_tools else contacts.overlap_methods
+        of = () if of_tools else contacts.overlap_contact
+        surfaces = (*tools, *search.all_met(methods, of, contacts.margins, (x0, x1)))
         numbers = [contacts.contact[i] for i in self._tool_rows()]
-        nodes = [m.node for m in contacts.overlap_methods]
-        numbers += [np.full(len(n), k) for n, k in zip(nodes, contacts.overlap_contact, strict=True)]
-        node = np.concatenate([m.node for m in tools] + nodes)
-        surfaces, frictionless = (*tools, *self.overlap_surfaces), TangentialRows.none(len(node), *u.shape)
-        places = contacts.points + u, u
-        return joined_rows(surfaces, places, (node, np.concatenate(numbers)), contacts.labels, frictionless)
+        numbers += [np.full(len(m.node), k) for m, k in zip(methods, of, strict=True)]
+        node = np.concatenate([np.zeros(0, int), *(m.node for m in tools), *(m.node for m in methods)])
+        both = node, np.concatenate([np.zeros(0, int), *numbers])
+        frictionless = TangentialRows.none(len(node), *u.shape)
+        return joined_rows(surfaces, (contacts.points + u, u), both, contacts.labels, frictionless)
 
     def _tool_rows(self) -> list[slice]:
         """Rows of the methods for contact with tools."""

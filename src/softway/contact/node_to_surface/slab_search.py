@@ -31,6 +31,17 @@ class SlabSearch:
         each = enumerate(zip(bounds, self.margins, strict=True))
         return frozenset(k for k, (m, margin) in each if m is not None and m.apart(x0, x1, margin))
 
+    def all_met(
+        self,
+        methods: Sequence[NodeToTool | SurfacePair],
+        contacts: Sequence[int],
+        bounds: Sequence[SearchMargin | None],
+        way: tuple[Array, Array],
+    ) -> tuple[PairedSurfaces, ...]:
+        """Pairs of the methods of ``contacts``, one for each, on the ``way`` between two positions (n, d)."""
+        apart = self.apart(bounds, *way) if methods else frozenset()
+        return tuple(self.met(m, k, apart, *way) for m, k in zip(methods, contacts, strict=True))
+
     def met(
         self, method: NodeToTool | SurfacePair, contact: int, apart: frozenset[int], x0: Array, x1: Array
     ) -> PairedSurfaces:

@@ -5,6 +5,7 @@ import numpy as np
 from softway.arrays import Array
 from softway.bodies.assembled.following_nodes import reactions
 from softway.bodies.elements.section import Axisymmetric
+from softway.contact.contact_rows import ContactRows
 from softway.marching.audit.balances import rounding_forces
 from softway.marching.audit.heat_audit import fallen
 from softway.marching.audit.ledger import resultant
@@ -27,7 +28,7 @@ def certify(
 
     The gaps are those to the nearest surfaces; forces belong to the rows that carry them, which may be on others.
     """
-    rows = out.system.contact.nearest_rows(after.start.displacement)
+    rows = _nearest(out, after)
     gap = np.where(rows.near, rows.gap(after.start.displacement), np.inf)
     closed = after.closed & out.rows.near
     held = out.rows.gap(after.start.displacement)[closed]
@@ -39,6 +40,15 @@ def certify(
         momentum_error=float(np.abs(leftover).max()),
         energy_error=ledger.energy_error - last.energy_error,
     )
+
+
+def _nearest(out: SlabResult, after: ModelState) -> ContactRows:
+    """Rows at the end of a slab on the facets that are nearest there: those of the solution if it chose them there."""
+    contact, end = out.system.contact, after.start.displacement
+    same = out.solution.last.system.contact is contact and not contact.kept
+    if same and np.array_equal(end, out.solution.end.displacement):
+        return out.solution.end.rows
+    return contact.nearest_rows(end)
 
 
 def violation(

@@ -160,7 +160,8 @@ def contact_event(
 def _opposite(model: Model, rows: ContactRows, row: int) -> str:
     """Name of the solid that the node of a row touches; its own where a body touches itself."""
     own = int(model.part_of[rows.node[row]])
-    others = model.part_of[rows.gradient[[row]].indices // model.shape[1]]
+    start, end = rows.gradient.indptr[row : row + 2]
+    others = model.part_of[rows.gradient.indices[start:end] // model.shape[1]]
     return model.parts[int(next((k for k in others if k != own), own))].name
 
 

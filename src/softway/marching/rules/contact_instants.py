@@ -32,9 +32,9 @@ def touches(
         return []
     gap = np.where(rows.near, rows.gap(now.start.displacement), 0.0)
     speed = 0.5 * solution.predicted[: len(last.node)] - last.tool_motion / h
-    unseen = ~rows.near | (gap + h * speed >= 0.0)
+    unseen = fresh & (~rows.near | (gap + h * speed >= 0.0))
     coasting = now.start.displacement + h * now.start.velocity
-    for seen in (last, system.contact.at(coasting)):
+    for seen in (last, system.contact.at(coasting)) if unseen.any() else ():
         first = np.where(seen.near, seen.gap(now.start.displacement), 0.0) + seen.tool_motion
         rate = seen.normal_component(now.start.velocity) - seen.tool_motion / h
         closes = unseen & (first > 0.0) & (first + h * rate < 0.0)

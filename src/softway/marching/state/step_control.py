@@ -21,6 +21,9 @@ ENDLESS = 1e6
 lead nowhere."""
 SMALL_STRAIN = 1.0
 """Least limit of the approach, in edges, for bodies of small strain: their cells cannot be crushed."""
+SLOW = 6.0
+"""Bound of the change of a gap between solids, in greatest motions of a node: of the node, of the facet, and of the
+foot as the facet turns, twice."""
 EARLY = 0.25
 """Least time from the end of a slab above the lowest rung to an event, in lowest rungs."""
 ROUNDING = 1e-6
@@ -102,18 +105,28 @@ def require_slow(model: Model, pairs: SlabContacts, start: Array, coasting: Arra
     TooFast
         With the contact and the approach beyond the touch.
     """
-    rows = pairs.overlap_rows(coasting)
+    of_tools = _creeps(model, start, coasting, limit)
+    rows = pairs.overlap_rows(coasting, of_tools)
     depth = _in_edges(model, rows, -rows.gap(coasting))
     crushable = np.array([not p.internal.linear for p in model.parts])[model.part_of[rows.node]]
     allowed = (1.0 + 1e-6) * np.where(crushable, limit, max(limit, SMALL_STRAIN))
     if (depth <= allowed).all():
         return
-    first = pairs.overlap_rows(start)
+    first = pairs.overlap_rows(start, of_tools)
     depth = depth - np.maximum(_in_edges(model, first, -first.gap(start) - first.tool_motion), 0.0)
     if (depth > allowed).any():
         worst = int(np.argmax(depth / allowed))
         label = rows.labels[rows.contact[worst]]
         raise TooFast(f"in {label} a node approaches by {depth[worst]:.3g} edges beyond the touch")
+
+
+def _creeps(model: Model, start: Array, coasting: Array, limit: float) -> bool:
+    """True if all nodes move so little that no gap between solids changes by more than ``limit`` edges.
+
+    A gap changes at most by the motion of its node, of the facet and of the foot on it as the facet turns.
+    """
+    motion = model.space.greatest(coasting - start) * np.sqrt(start.shape[1])
+    return bool(SLOW * motion <= limit * model.space.least(model.edge))
 
 
 def require_open(

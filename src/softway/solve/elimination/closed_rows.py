@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 import scipy.sparse as sp
 
-from softway.arrays import Array
+from softway.arrays import Array, greatest
 from softway.kernels.linalg.dense import solve_dense
 from softway.solve.constraints.compliance import FrozenOperator, RowBasis
 from softway.solve.constraints.normal_active_set import delassus
@@ -19,7 +19,9 @@ from softway.solve.linear.interface import Factor
 LIFT = 1e-11
 """Part of the greatest diagonal entry that is added to the diagonal, so that dependent rows have a factor."""
 REFINEMENTS = 3
-"""Refinements of a solution with the original matrix, which remove the effect of ``LIFT`` on the forces."""
+"""Greatest number of refinements of a solution with the original matrix, which remove the effect of ``LIFT``."""
+REFINED = 4.0 * float(np.finfo(float).eps)
+"""Greatest residual of a refined solution, relative to the right side."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -65,9 +67,12 @@ class ClosedRows:
         """Multipliers (c,) ``S^-1 wanted`` that move the rows by ``wanted`` (c,) against D alone."""
         if self.factor is None:
             return np.asarray(wanted / self.diagonal)
-        found = self.factor.solve(wanted)
+        found, goal = self.factor.solve(wanted), REFINED * greatest(wanted)
         for _ in range(REFINEMENTS):
-            found = found + self.factor.solve(wanted - self.compliance @ found)
+            left = wanted - self.compliance @ found
+            if greatest(left) <= goal:
+                break
+            found = found + self.factor.solve(left)
         return found
 
     def motion(self, wanted: Array) -> Array:
@@ -81,6 +86,12 @@ class ClosedRows:
     def balanced(self, residual: Array) -> Array:
         """The residual r (f,) without the forces of its :meth:`multipliers`."""
         return residual - self.transposed @ self.multipliers(residual)
+
+    def kept(self, residual: Array, z: Array) -> Array:
+        """``z = D^-1 r`` (f,) of a residual r (f,), without its motion of the rows: what ``D^-1`` makes of the residual
+        without its multipliers.
+        """
+        return z - self.lifted @ self.multipliers(residual)
 
     def removed(self, z: Array) -> Array:
         """The field z (f,) without its motion of the rows: its projection on ``G z = 0`` in the norm of D."""

@@ -92,8 +92,8 @@ class Elimination:
         if greatest(missing) > CLOSED * greatest(target):
             part = closed.motion(missing)
             d, Ad = d + part, Ad + self.gradients.times(part)
-        precondition = Projection.of(closed, self.gradients.preconditioner)
-        found = self.gradients.descend(-(r + Ad), precondition)
+        precondition = Projection.of(closed, self.gradients.preconditioner, self.local)
+        found = self.gradients.descend(closed.balanced(-(r + Ad)), precondition)
         d, Ad = d + found.x, Ad + found.Ax
         multiplier = closed.multipliers(r + Ad)
         return Answer(d + closed.motion(target - closed.matrix @ (equations.y + d)), Ad, multiplier)
@@ -102,23 +102,30 @@ class Elimination:
 @dataclass(frozen=True, slots=True, eq=False)
 class Projection:
     """Preconditioner ``outer`` on the fields that do not move the ``closed`` rows, and residuals without their
-    multipliers.
+    multipliers; ``own`` if it is the inverse D^-1 of the closed rows.
     """
 
     closed: ClosedRows | None
     outer: Factor
+    own: bool = False
 
     @classmethod
-    def of(cls, closed: ClosedRows, outer: Factor) -> "Projection":
-        """Preconditioner for rows; the outer one itself without any."""
-        return cls(closed if closed.matrix.shape[0] else None, outer)
+    def of(cls, closed: ClosedRows, outer: Factor, local: Factor) -> "Projection":
+        """Preconditioner for rows closed with ``local``; the outer one itself without any."""
+        return cls(closed if closed.matrix.shape[0] else None, outer, outer is local)
 
     def __call__(self, r: Array) -> tuple[Array, Array]:
-        """Residual (f,) without the part along the rows, and its preconditioned field (f,)."""
+        """Residual (f,) without the part along the rows, and its preconditioned field (f,).
+
+        Balanced by the same inverse, a residual has a field that does not move the rows.
+        """
         if self.closed is None:
             return r, self.outer.solve(r)
+        if self.own and self.closed.factor is None:
+            return r, self.closed.kept(r, self.outer.solve(r))
         r = self.closed.balanced(r)
-        return r, self.closed.removed(self.outer.solve(r))
+        z = self.outer.solve(r)
+        return r, z if self.own else self.closed.removed(z)
 
 
 def normal_sweeps(
@@ -139,9 +146,25 @@ def normal_sweeps(
         gap = slack + equations.matrix @ answer.d
         multiplier = np.zeros(len(active))
         multiplier[index] = answer.multiplier
-        wrong = rows.unilateral & moved & ((active & (multiplier < 0.0)) | (~active & (gap < -floor)))
+        lifts = _lifts(elimination.of(equations.matrix, index), answer.multiplier, floor)
+        lifted = np.zeros(len(active), bool)
+        lifted[index] = lifts
+        wrong = rows.unilateral & moved & (lifted | (~active & (gap < -floor)))
         if not wrong.any():
-            return Swept(answer.d, multiplier, active, settled=True)
+            return Swept(answer.d, _pressing(rows, multiplier), active, settled=True)
         active = active ^ wrong
     assert answer is not None
-    return Swept(answer.d, np.where(rows.unilateral, np.maximum(multiplier, 0.0), multiplier), active, settled=False)
+    return Swept(answer.d, _pressing(rows, multiplier), active, settled=False)
+
+
+def _pressing(rows: RowConditions, multiplier: Array) -> Array:
+    """Multipliers (m,) without tensions of unilateral rows."""
+    return np.where(rows.unilateral, np.maximum(multiplier, 0.0), multiplier)
+
+
+def _lifts(closed: ClosedRows, multiplier: Array, floor: float) -> BoolArray:
+    """Rows (c,) whose tension would open them by more than the rounding ``floor`` of gaps, against D alone.
+
+    Bodies that fall together press on each other with forces that are rounding: their signs do not count.
+    """
+    return np.asarray(multiplier * closed.diagonal < -floor)

@@ -16,12 +16,15 @@ from softway.solve.constraints.compliance import FrozenOperator
 from softway.solve.equations.slab_equations import SlabEquations
 from softway.solve.equations.slab_values import Evaluation
 from softway.solve.methods.anderson import Anderson
+from softway.solve.methods.contact_step import ContactStep
 from softway.solve.methods.eliminated_step import contact_steps, pushed_exactly
 from softway.solve.methods.facet_check import check_facets
 from softway.solve.methods.iteration import Guess, Iterate, lost
 from softway.solve.methods.newton import Newton
+from softway.solve.methods.one_solution import FirstResidual
 from softway.solve.methods.renewal import RETREATS, WINDOW, Course
 from softway.solve.operators import ConjugateGradients, Device, Factored, MatrixFree, Multigrid
+from softway.solve.operators.operator_memory import OperatorMemory
 from softway.solve.operators.operator_refresh import refreshed, renewed_inside
 
 POOR = 0.8
@@ -137,6 +140,7 @@ class FixedPoint:
         steps = contact_steps(system, frozen)
         mixing = _Mixing(Anderson(self.depth, space.of_unknowns), frozen, space, pushed_exactly(system, frozen))
         last, stuck, part, plain = np.inf, 0, 1.0, np.zeros(0)
+        first = None if guess.near else FirstResidual.of(system, frozen, q, end, impulse)
         for count in itertools.count():
             system = system.with_kept_facets_after(end.displacement, active, count)
             if not space.every(np.isfinite(dofs.forces(end.residual))):
@@ -148,16 +152,7 @@ class FixedPoint:
             system, new = system.followed(q, step.q, end)
             change = max(space.greatest(new - q), step.missed)
             sound, completed = check_facets(system, new, change)
-            yield Iterate(
-                q=new,
-                change=change,
-                impulse=step.impulse,
-                active=step.active,
-                free=plain,
-                memory=memory,
-                system=system,
-                sound=sound and step.settled,
-            )
+            yield _iterate(step, (new, change), (plain, memory), system, sound)
             system = completed
             stuck = stuck + 1 if change > 0.99 * last else 0
             part = _next_part(part, change > SWING * last and bool((step.active != active).any()), system)
@@ -168,6 +163,29 @@ class FixedPoint:
             mixed, impulse = mixing.mixed((before, impulse), (system.unknowns(new), step.impulse))
             system, q = system.at(before + part * (mixed - before) if part < 1.0 else mixed)
             end = system.evaluate(q, impulse, end)
+            if count == 0 and first is not None:
+                now = Guess(q=q, impulse=impulse, active=active, memory=memory)
+                yield from first.confirmed(now, system, end, (plain, change), self.tolerance)
+
+
+def _iterate(
+    step: ContactStep,
+    found: tuple[Array, float],
+    kept: tuple[Array, OperatorMemory],
+    system: SlabEquations,
+    sound: bool,
+) -> Iterate:
+    """Iterate of a step, from q (n, d) and its change, components (m,) without contact and memory."""
+    return Iterate(
+        q=found[0],
+        change=found[1],
+        impulse=step.impulse,
+        active=step.active,
+        free=kept[0],
+        memory=kept[1],
+        system=system,
+        sound=sound and step.settled,
+    )
 
 
 def _next_part(part: float, swings: bool, system: SlabEquations) -> float:

@@ -36,7 +36,7 @@ class Iterate:
     ``q`` (n, d) satisfies the contact rows; ``change`` is its distance from the point of the residual; ``impulse`` (m,)
     are the multipliers of the rows, ``active`` (m,) the rows with a multiplier; ``free`` (m,) are the normal components
     of the first iterate without contact; ``system`` are the equations with its rows; the iterate is ``sound`` if the
-    surfaces do not overlap.
+    surfaces do not overlap; ``end`` is its evaluation if it is known.
     """
 
     q: Array
@@ -47,6 +47,7 @@ class Iterate:
     memory: OperatorMemory
     system: SlabEquations
     sound: bool
+    end: Evaluation | None = None
 
     @property
     def guess(self) -> Guess:
@@ -150,7 +151,7 @@ def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float
             and it.change < 0.5 * closest
             and (near or _stagnates(system, it, seen.since, (scale, resolved), tolerance))
         ):
-            closest, end = it.change, it.system.evaluate(it.q, it.impulse)
+            closest, end = it.change, it.end or it.system.evaluate(it.q, it.impulse)
             fell = contraction(first, it.change, count)
             yield Solution(last=it, end=end, predicted=predicted, iterations=count, contraction=fell)
             if it.change <= FINEST * scale:

@@ -8,8 +8,9 @@ import pytest
 
 import softway as sw
 from softway.bodies.assembled.vector_space import LocalSpace
+from softway.contact.contact_set import SlabContacts
 from softway.errors import TooFast
-from softway.marching.state.step_control import may_grow, require_slow
+from softway.marching.state.step_control import SLOW, may_grow, require_slow
 from softway.model.build import build
 
 SOFT, LINEAR = sw.NeoHookean(E=1.0, nu=0.3), sw.LinearElastic(E=1.0, nu=0.3)
@@ -85,6 +86,46 @@ def test_an_overlap_at_the_start_does_not_count(start: float, end: float, push: 
     pairs = model.contacts.meet(first, last, 0.0, 1.0)
     with pytest.raises(TooFast, match=told) if told else nullcontext():
         require_slow(model, pairs, first, last, 0.25)
+
+
+def stacked() -> sw.Scene:
+    """Two blocks with a gap between them, on meshes that do not match."""
+    blocks = {
+        name: sw.Solid(
+            mesh=sw.meshes.Rectangle(size=(1.0, 1.0), cells=(n, n), origin=(0.0, y)), material=SOFT, density=1.0
+        )
+        for name, n, y in (("low", 5, 0.0), ("high", 4, 1.01))
+    }
+    return sw.Scene(bodies=blocks, contacts=(sw.Contact(between=("low.top", "high.bottom")),))
+
+
+@pytest.mark.parametrize(("part", "seen"), [(0.99, True), (1.01, False)])
+def test_overlaps_of_solids_that_creep_are_not_searched(
+    part: float, seen: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    model = build(stacked())
+    motion = part * 0.25 * float(model.edge.min()) / (SLOW * np.sqrt(2.0))
+    start = np.zeros(model.shape)
+    pairs = model.contacts.meet(start, start + motion, 0.0, 1.0)
+    asked, plain = [], SlabContacts.overlap_rows
+    monkeypatch.setattr(
+        SlabContacts, "overlap_rows", lambda self, u, of_tools=False: asked.append(of_tools) or plain(self, u, of_tools)
+    )
+    require_slow(model, pairs, start, start + motion, 0.25)
+    assert asked == [seen]
+
+
+def test_a_gap_changes_by_less_than_its_bound() -> None:
+    """Random motions of all nodes, two blocks at a distance of a twentieth of their edges."""
+    model, rng = build(stacked()), np.random.default_rng(2)
+    start = np.zeros(model.shape)
+    for size in (1e-4, 1e-3, 1e-2):
+        motion = size * rng.uniform(-1.0, 1.0, model.shape)
+        pairs = model.contacts.meet(start, motion, 0.0, 1.0)
+        before, after = (pairs.overlap_rows(u) for u in (start, motion))
+        both = before.near & after.near
+        change = np.abs(after.gap(motion)[both] - before.gap(start)[both])
+        assert both.any() and change.max() <= SLOW * np.sqrt(2.0) * np.abs(motion).max()
 
 
 @pytest.mark.parametrize("value", [0.0, -1.0, np.inf, np.nan])

@@ -9,6 +9,7 @@ import scipy.sparse as sp
 
 from softway.arrays import Array
 from softway.solve.elimination.closed_rows import ClosedRows
+from softway.solve.elimination.contact_sweeps import Projection
 from softway.solve.operators.matrix_free import Blocks
 
 
@@ -75,3 +76,15 @@ def test_closed_rows_do_not_widen_the_spectrum(setting: Setting) -> None:
     moved = [setting.closed.removed(setting.inverse.solve(setting.A @ x)) for x in kernel.T]
     found = np.sort(np.linalg.eigvals(kernel.T @ np.stack(moved, axis=1)).real)
     np.testing.assert_allclose(found, inside, rtol=1e-9)
+
+
+@pytest.mark.parametrize("count", [1, 3], ids=["a row of one node", "rows that share nodes"])
+def test_one_projection_serves_the_inverse_of_the_rows(setting: Setting, count: int) -> None:
+    """The field of a balanced residual does not move the rows: it is that of two projections."""
+    some, inverse = Setting(setting.A, setting.D, setting.G[-count:]), setting.inverse
+    r = some.closed.balanced(np.random.default_rng(3).normal(size=30))
+    own, other = Projection.of(some.closed, inverse, inverse), Projection.of(some.closed, inverse, setting.inverse)
+    z, expected = own(r)[1], other(r)[1]
+    np.testing.assert_allclose(z, expected, atol=1e-13 * np.abs(expected).max())
+    assert np.abs(some.G @ z).max() <= 1e-13 * np.abs(z).max()
+    assert own(r)[0] @ z == pytest.approx(other(r)[0] @ expected, rel=1e-12)
