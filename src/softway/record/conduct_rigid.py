@@ -13,7 +13,7 @@ from typing import Any, Literal, Protocol
 
 from softway.errors import Cancel, Note, heed
 from softway.heat.march import HeatStep
-from softway.mechanisms.march import MechanismStep
+from softway.mechanisms.step import MechanismStep
 from softway.piles.march import PileStep
 from softway.record.first_step import chained, first_step
 from softway.record.read import summary

@@ -8,7 +8,7 @@ import pytest
 import softway as sw
 from softway.errors import InputError
 from softway.mechanisms import Mechanism, MechanismState, Rigid, march
-from softway.mechanisms.march import MechanismStep
+from softway.mechanisms.step import MechanismStep
 
 FOLDER = Path(__file__).parents[3] / "scenarios"
 TOP = Mechanism(bodies={"top": Rigid(mass=1.0, centre=(0.0, 0.0, 0.0), inertia=(1.0, 2.0, 2.5), spin=(0.1, 3.0, 0.1))})

@@ -7,7 +7,7 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.bodies.rigid_motion import quaternion
-from softway.mechanisms.march import BodyState, MechanismStep
+from softway.mechanisms.step import BodyState, MechanismStep
 from softway.record.storage import table
 
 MOTION = "motion.csv"

@@ -4,8 +4,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 
-from softway.mechanisms.march import MechanismStep
 from softway.mechanisms.members.stops import StopEvent
+from softway.mechanisms.step import MechanismStep
 from softway.record.storage.line_files import LineFiles, Rows, open_files
 from softway.record.storage.table import Cells
 from softway.record.write import events, history
