@@ -7,7 +7,7 @@ import numpy as np
 from softway.errors import InputError
 from softway.mechanisms.arrays import MechanismState
 from softway.mechanisms.members.mechanism import Mechanism
-from softway.mechanisms.step import MechanismStep
+from softway.mechanisms.step import MechanismGroup, MechanismStep
 from softway.mechanisms.walk import walk_of
 from softway.units import Second
 
@@ -55,6 +55,14 @@ def march(
     >>> abs(last.energy_error) < 1e-12, abs(float(np.hypot(*last.bodies["mass"].centre)) - 1.0) < 1e-13
     (True, True)
     """
+    groups = march_groups(mechanism, until=until, step=step, every=every, state=state)
+    return (one for group in groups for one in group.steps())
+
+
+def march_groups(
+    mechanism: Mechanism, *, until: Second, step: Second, every: int = 1, state: MechanismState | None = None
+) -> Iterator[MechanismGroup]:
+    """March a mechanism as :func:`march`; yields its states in groups of those that were compiled together."""
     mechanism.require_cold()
     if not (np.isfinite(until) and until > 0.0):
         raise InputError("until", f"{until:g} s is not positive", "a time after the start")
@@ -64,5 +72,4 @@ def march(
         raise InputError("every", f"{every}", "1 or more")
     if not until / step < MOST:
         raise InputError("step", f"{until / step:.3g} slabs of {step:.3g} s", "an earlier end, or longer slabs")
-    walk = walk_of(mechanism, until, step, every, state)
-    return (one for group in walk.groups() for one in group.steps())
+    return walk_of(mechanism, until, step, every, state).groups()

@@ -81,8 +81,7 @@ class MechanismStep:
     motors
         Torque [N m] or force [N] of each motor, the mean over the last slab.
     march_state
-        Function that returns the state from which :func:`~softway.mechanisms.march` continues with the same bits; to be
-        called before the next step is computed.
+        Function that returns the state from which :func:`~softway.mechanisms.march` continues with the same bits.
     """
 
     time: float
@@ -103,6 +102,11 @@ class MechanismStep:
     closed: tuple[str, ...] = ()
     motors: Mapping[str, float] = field(default_factory=dict)
     march_state: Callable[[], MechanismState]
+
+    @property
+    def closed_stops(self) -> int:
+        """Number of the closed stops."""
+        return len(self.closed)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -142,6 +146,56 @@ class MechanismGroup:
 
     def __len__(self) -> int:
         return len(self.time)
+
+    @property
+    def energy_kinetic(self) -> Array:
+        """(k,) [J]."""
+        return self.course.sums[:, KINETIC]
+
+    @property
+    def energy_potential(self) -> Array:
+        """(k,) [J]."""
+        return self.course.sums[:, POTENTIAL]
+
+    @property
+    def work(self) -> Array:
+        """(k,) work since the start [J]."""
+        return self.course.sums[:, WORK]
+
+    @property
+    def dissipation(self) -> Array:
+        """(k,) energy dissipated since the start [J]."""
+        return self.course.sums[:, DISSIPATION]
+
+    @property
+    def momentum(self) -> Array:
+        """(3, k) total momentum [kg m/s]."""
+        return self.course.sums[:, MOMENTUM:SPIN].T
+
+    @property
+    def spin(self) -> Array:
+        """(3, k) angular momentum about the origin [kg m^2/s]."""
+        return self.course.sums[:, SPIN:].T
+
+    @property
+    def joints(self) -> Array:
+        """(k,) greatest errors of the joints [m]."""
+        return self.course.told[:, 0]
+
+    @property
+    def joint_velocity(self) -> Array:
+        """(k,) greatest errors of their velocities [m/s]."""
+        return self.course.told[:, 1]
+
+    @property
+    def iterations(self) -> IntArray:
+        """(k,) iterations since the state before."""
+        return self.course.counts[:, ITERATIONS]
+
+    @property
+    def closed_stops(self) -> IntArray:
+        """(k,) numbers of the closed stops."""
+        return np.asarray(self.course.closed.sum(axis=1))
 
     def steps(self) -> Iterator[MechanismStep]:
         """Each of the states."""

@@ -3,11 +3,12 @@
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Any
 
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
-from softway.errors import InputError, NumericsError
+from softway.errors import NumericsError
 from softway.kernels.multibody.course import ITERATIONS, Course, course, march_rows, note_state
 from softway.kernels.multibody.slab import begin
 from softway.kernels.multibody.tables import Space, space
@@ -22,6 +23,8 @@ from softway.mechanisms.newton import hard_slab
 from softway.mechanisms.step import MechanismGroup
 from softway.mechanisms.welds import Welded, parts_of, welded
 
+Changing = Mapping[str, Array | IntArray | BoolArray]
+"""Arrays that a march changes, by name."""
 TOGETHER = 256
 """Number of slabs of a group; those who wait for its states wait for no more slabs."""
 
@@ -72,7 +75,7 @@ class Walk:
     it: Arrays
     room: Space
     stops: StopMarch | None
-    tables: Mapping[str, Array | IntArray | BoolArray]
+    tables: Changing
     until: float
     h: float
     slabs: int
@@ -87,23 +90,20 @@ class Walk:
             yield start
         else:
             initial, done = self.state.energy, self.state.slabs
-        stretch = self._stretch(done)
+        stretch, kept = self._stretch(done), self._kept()
         while stretch.begin + stretch.first < self.slabs:
-            kept = {name: array.copy() for name, array in self.tables.items()}
             reached, error = self._flown(stretch)
-            rows = stretch.full(reached)
-            if rows:
-                slabs = stretch.slabs(rows)
-                yield self._told(stretch, rows, slabs, partial(self._again, kept, stretch, initial), initial)
+            if rows := stretch.full(reached):
+                yield self._told(stretch, rows, partial(self._again, kept, stretch, initial), initial)
             if error is not None:
                 raise error
             happens, stretch = reached < stretch.total, self._after(stretch, reached)
             if happens:
                 self._slab(stretch)
-                if stretch.full(stretch.first + 1):
-                    slabs = stretch.slabs(1)
-                    yield self._told(stretch, 1, slabs, partial(self._now, slabs, initial, self._clock), initial)
-                stretch = self._after(stretch, stretch.first + 1)
+            kept, over = self._kept(), stretch.first + int(happens)
+            if happens and stretch.full(over):
+                yield self._told(stretch, 1, partial(self._now, kept, stretch.slabs(1), initial), initial)
+            stretch = self._after(stretch, over) if happens else stretch
 
     def _start(self) -> MechanismGroup:
         """State at the start, with velocities that the joints allow."""
@@ -112,11 +112,16 @@ class Walk:
         require_free_motions(it, room)
         project_velocities(it.bodies, it.joints, it.motion, room)
         begin(it.bodies, it.joints, it.springs, it.motion, room)
-        initial, none = float(it.motion.energy.sum()), np.zeros(1, np.int64)
+        initial = float(it.motion.energy.sum())
         if self.stops is not None:
             stretch.events[0] += self.stops.start(self.h, it.reach(self.h))
         self._note(stretch.course)
-        return self._told(stretch, 1, none, partial(self._now, none, initial, self._clock), initial)
+        group = self._told(stretch, 1, partial(self._now, self._kept(), np.zeros(1, np.int64), initial), initial)
+        return replace(group, slabs=np.zeros(1, np.int64), time=np.zeros(1))
+
+    def _kept(self) -> Changing:
+        """Copies of the arrays that change."""
+        return {name: array.copy() for name, array in self.tables.items()}
 
     def _stretch(self, start: int, rows: int = TOGETHER) -> _Stretch:
         """Slabs from a number on, at most so many rows and slabs."""
@@ -167,12 +172,14 @@ class Walk:
             table.closed[0] = self.stops.stops.closed
 
     def _told(
-        self, stretch: _Stretch, rows: int, slabs: IntArray, reached: Callable[[int], MechanismState], initial: float
+        self, stretch: _Stretch, rows: int, reached: Callable[[int], MechanismState], initial: float
     ) -> MechanismGroup:
         """Group of the first ``rows`` of a stretch."""
+        slabs = stretch.slabs(rows)
         table = stretch.course
         if rows < len(table.sums):  # the others are not kept
-            table = Course(*table[:3], *(array[:rows].copy() for array in table[3:]))
+            first: tuple[Any, ...] = tuple(array[:rows].copy() for array in table[3:])
+            table = Course(*table[:3], *first)
         return MechanismGroup(
             course=table,
             time=np.where(slabs == self.slabs, self.until, slabs * self.h),
@@ -186,31 +193,21 @@ class Walk:
             reached=reached,
         )
 
-    @property
-    def _clock(self) -> float:
-        return float(self.it.motion.time[0])
-
-    def _now(self, slabs: IntArray, initial: float, clock: float, k: int) -> MechanismState:
-        """State of the march after a slab that was not compiled, if it has not gone on."""
-        time = float(slabs[k]) * self.h
-        if self._clock != clock:
-            raise InputError("march_state", f"the march has gone on since {time:g} s", "ask before the next step")
-        return captured(self.tables, int(slabs[k]), self._time(slabs[k]), self.h, initial)
+    def _now(self, kept: Changing, slabs: IntArray, initial: float, k: int) -> MechanismState:
+        """State of the march after a slab that was not compiled."""
+        return captured(kept, int(slabs[k]), self._time(int(slabs[k])), self.h, initial)
 
     def _time(self, slabs: int) -> float:
-        return self.until if slabs == self.slabs else float(slabs * self.h)
+        return self.until if slabs == self.slabs else slabs * self.h
 
-    def _again(
-        self, kept: Mapping[str, Array | IntArray | BoolArray], stretch: _Stretch, initial: float, k: int
-    ) -> MechanismState:
+    def _again(self, kept: Changing, stretch: _Stretch, initial: float, k: int) -> MechanismState:
         """State after the k-th row of a stretch, by a march from the arrays that were ``kept`` at its start."""
-        now = {name: array.copy() for name, array in self.tables.items()}
+        now, slabs = self._kept(), int(stretch.slabs(k + 1)[k])
         for name, array in self.tables.items():
             array[:] = kept[name]
-        slabs = int(stretch.slabs(k + 1)[k])
         again = self._stretch(stretch.begin)
         self._flown(replace(again, first=stretch.first, total=slabs - stretch.begin))
-        found = captured(self.tables, slabs, self._time(slabs), self.h, initial)
+        found = self._now(self._kept(), np.array([slabs]), initial, 0)
         for name, array in self.tables.items():
             array[:] = now[name]
         return found
