@@ -10,8 +10,8 @@ from scipy.sparse.csgraph import connected_components
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError
-from softway.kernels.multibody.course import reach
 from softway.kernels.multibody.tables import Bodies, Joints, Motion, Space, Springs
+from softway.kernels.rigid_course.course import reach
 from softway.mechanisms.force_tables import spring_tables
 from softway.mechanisms.members.joints import GROUND
 from softway.mechanisms.members.mechanism import Mechanism

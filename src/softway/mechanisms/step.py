@@ -7,7 +7,7 @@ from functools import partial
 import numpy as np
 
 from softway.arrays import Array, IntArray
-from softway.kernels.multibody.course import (
+from softway.kernels.rigid_course.course import (
     DISSIPATION,
     INDEPENDENT,
     ITERATIONS,

@@ -9,10 +9,10 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import NumericsError
-from softway.kernels.multibody.course import ITERATIONS, Course, course, march_rows, note_state
 from softway.kernels.multibody.slab import begin
 from softway.kernels.multibody.tables import Space, space
 from softway.kernels.multibody.velocities import project_velocities
+from softway.kernels.rigid_course.course import ITERATIONS, Course, course, march_rows, note_state
 from softway.mechanisms.arrays import Arrays, MechanismState, arrays, captured, changing, restore
 from softway.mechanisms.contacts.impacts import StopMarch
 from softway.mechanisms.contacts.stop_start import stop_march

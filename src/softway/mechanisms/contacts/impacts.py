@@ -13,9 +13,9 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError, NumericsError
-from softway.kernels.multibody.course import Course
 from softway.kernels.rigid_contact.closed_stops import NEAR, NOISE, STILL
-from softway.kernels.rigid_contact.course import CHANGED, LOST, TOUCH, fly_rows
+from softway.kernels.rigid_course.course import Course
+from softway.kernels.rigid_course.stops import CHANGED, LOST, TOUCH, fly_rows
 from softway.mechanisms.contacts.slipping import jammed, next_change, tell_sliding
 from softway.mechanisms.contacts.stop_rows import Stops, lost_velocities
 from softway.mechanisms.members.stops import Impacts, Restitution, StopEvent
@@ -85,11 +85,7 @@ class StopMarch:
     def flown(
         self, table: Course, h: float, begin: int, first: int, total: int, events: list[list[StopEvent]]
     ) -> tuple[int, NumericsError | None]:
-        """March slabs of length h in which no stop is touched, in a compiled loop.
-
-        They are those from ``first`` to ``total`` after the slab ``begin``, and fill the rows of a table and of the
-        ``events``.  Returned are the number of the first that was not taken, and what it raises.
-        """
+        """March slabs without touches, into the rows of a table and ``events``: the first left, and what it raises."""
         stops, end = self.stops, CHANGED
         while end == CHANGED and first < total:
             closed = stops.closed.copy()

@@ -14,8 +14,8 @@ from softway.kernels.multibody.slab import prepare_joints
 from softway.kernels.multibody.tables import Space
 from softway.kernels.rigid_contact import closed_stops
 from softway.kernels.rigid_contact.contact import collide, collide_at_once
-from softway.kernels.rigid_contact.course import try_slab
 from softway.kernels.rigid_contact.tables import StopTable
+from softway.kernels.rigid_course.stops import try_slab
 from softway.mechanisms.arrays import Arrays
 
 

@@ -13,10 +13,10 @@ from softway.arrays import Array
 from softway.bodies.rigid_motion import RigidMotion, RigidShape, quaternion, rotation_vector, rotations
 from softway.errors import InputError, NoConvergence, NumericsError
 from softway.kernels.multibody.angles import angles_at
-from softway.kernels.multibody.course import course, note_bodies
 from softway.kernels.multibody.energy import kinetic_energy, potential_energy
 from softway.kernels.multibody.slab import begin
 from softway.kernels.multibody.velocities import project_velocities
+from softway.kernels.rigid_course.course import course, note_bodies
 from softway.mechanisms.arrays import Arrays, arrays
 from softway.mechanisms.driven import require_free_motions
 from softway.mechanisms.members.joints import GROUND

@@ -3,10 +3,10 @@
 import numpy as np
 
 from softway.kernels.jit.compilation import kernel
-from softway.kernels.multibody.course import ITERATIONS, is_noted, note_state, reach
 from softway.kernels.multibody.slab import evaluate_rows
 from softway.kernels.rigid_contact.closed_stops import closed_rows, hold, jammed, take_contact_slab
 from softway.kernels.rigid_contact.contact import solve_contact_slab
+from softway.kernels.rigid_course.course import ITERATIONS, is_noted, note_state, reach
 
 TOUCH = 1e-14
 """Gap relative to the extent that is rounding."""
