@@ -22,7 +22,7 @@ from inputs.assemblies import assembly
 from inputs.drops import Drop, drop
 from inputs.rigid_drops import rigid_drop
 from softway.errors import InputError, NumericsError
-from softway.mechanisms.march import MechanismStep
+from softway.mechanisms.step import MechanismStep
 from softway.record.audit.folder import frames_audited
 from softway.record.run import Run
 from softway.record.write.progress import MechanismProgress, Progress

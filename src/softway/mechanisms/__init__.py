@@ -3,8 +3,6 @@
 from softway.bodies.setup.motion_laws import RatePolyline as RatePolyline
 from softway.bodies.setup.motion_laws import Sine as Sine
 from softway.mechanisms.arrays import MechanismState as MechanismState
-from softway.mechanisms.march import BodyState as BodyState
-from softway.mechanisms.march import MechanismStep as MechanismStep
 from softway.mechanisms.march import march as march
 from softway.mechanisms.members.couplings import Gear as Gear
 from softway.mechanisms.members.couplings import HeatLink as HeatLink
@@ -42,6 +40,8 @@ from softway.mechanisms.members.volumes import rigid_mesh as rigid_mesh
 from softway.mechanisms.members.volumes import rigid_surface as rigid_surface
 from softway.mechanisms.robots.robot_file import RobotFile as RobotFile
 from softway.mechanisms.robots.robot_file import read_robot as read_robot
+from softway.mechanisms.step import BodyState as BodyState
+from softway.mechanisms.step import MechanismStep as MechanismStep
 
 __all__ = [
     "AngleStop",

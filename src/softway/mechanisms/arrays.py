@@ -11,6 +11,7 @@ from scipy.sparse.csgraph import connected_components
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError
 from softway.kernels.multibody.tables import Bodies, Joints, Motion, Space, Springs
+from softway.kernels.rigid_course.course import reach
 from softway.mechanisms.force_tables import spring_tables
 from softway.mechanisms.members.joints import GROUND
 from softway.mechanisms.members.mechanism import Mechanism
@@ -36,8 +37,7 @@ class Arrays:
 
     def reach(self, h: float) -> float:
         """Extent of the mechanism with its places, or its way in a slab of length h: the scale of rounding [m]."""
-        way = h * (float(np.abs(self.motion.velocity).max()) + h * float(np.abs(self.bodies.gravity).max()))
-        return max(self.extent, float(np.abs(self.motion.place).max()), way, 1e-300)
+        return float(reach(self.motion.place, self.motion.velocity, self.bodies.gravity, self.extent, h))
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

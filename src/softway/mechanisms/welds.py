@@ -6,7 +6,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from softway.arrays import Array
+from softway.arrays import Array, IntArray
 from softway.errors import InputError
 from softway.mechanisms.members.joints import GROUND, Joint, Weld, in_space
 from softway.mechanisms.members.mechanism import Mechanism
@@ -143,3 +143,17 @@ def _one(parts: list[Rigid]) -> Rigid:
 
 def _as_given(vector: Array, dim: int) -> tuple[float, ...]:
     return tuple(vector[:dim].tolist())
+
+
+def parts_of(mechanism: Mechanism, joined: Welded, names: tuple[str, ...]) -> tuple[IntArray, Array]:
+    """Bodies of a mechanism as parts of those without welds: their numbers among ``names`` (b,), the ground last, and
+    the arms (b, 3) from the centres of those to their own, at the start [m].
+    """
+    whole, arms = np.zeros(len(mechanism.bodies), np.int64), np.zeros((len(mechanism.bodies), 3))
+    for k, (name, body) in enumerate(mechanism.bodies.items()):
+        part = joined.part_of[name]
+        whole[k] = names.index(part) if part in names else len(names)
+        arms[k, : mechanism.dim] = body.centre
+        if part in names:
+            arms[k, : mechanism.dim] -= joined.mechanism.bodies[part].centre
+    return whole, arms

@@ -11,8 +11,8 @@ from softway.bodies.setup.loads import Load
 from softway.bodies.solid import Solid, Tool
 from softway.contact.assembly.tie import Tie
 from softway.contact.contact import Contact
-from softway.mechanisms.march import BodyState
 from softway.mechanisms.members.mechanism import Mechanism
+from softway.mechanisms.step import BodyState
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -13,7 +13,7 @@ from typing import Any, Literal, Protocol
 
 from softway.errors import Cancel, Note, heed
 from softway.heat.march import HeatStep
-from softway.mechanisms.march import MechanismStep
+from softway.mechanisms.step import MechanismGroup, MechanismStep
 from softway.piles.march import PileStep
 from softway.record.first_step import chained, first_step
 from softway.record.read import summary
@@ -31,6 +31,8 @@ PATIENCE = 2.0
 """Seconds of the first step after which a line tells that it is being compiled."""
 COMPILING = "compiling the march of the {}: about 15 s, once on this machine"
 Step = MechanismStep | PileStep | HeatStep
+One = Step | MechanismGroup
+"""A step, or states of a mechanism that were compiled together."""
 
 
 class StepFiles(Protocol):
@@ -85,7 +87,7 @@ class RigidRun:
 
 
 def record_rigid(
-    steps: Iterator[Step],
+    steps: Iterator[One],
     opening: RigidRun,
     place: RunFolder,
     *,
@@ -98,13 +100,14 @@ def record_rigid(
     Parameters
     ----------
     steps
-        Steps of :func:`softway.mechanisms.march`, :func:`softway.piles.march` or :func:`softway.heat.march_heat`.
+        Steps of :func:`softway.mechanisms.march`, which may be grouped, :func:`softway.piles.march` or
+        :func:`softway.heat.march_heat`.
     opening
         What the records need to know.
     place
         Folder to create.
     progress
-        Callback after each recorded step.
+        Callback after each recorded step, or group.
     cancel
         Function called after each step; the run stops when it returns True.
     tell
@@ -142,7 +145,7 @@ def record_rigid(
 
 
 def continue_rigid(
-    steps: Iterator[Step],
+    steps: Iterator[One],
     opening: RigidRun,
     run: Run,
     found: Checkpoint | None,
@@ -192,7 +195,7 @@ def _opened(run: Run, opening: RigidRun, marks: Mapping[str, int]) -> StepFiles:
 
 
 def _carried_on(
-    steps: Iterator[Step],
+    steps: Iterator[One],
     opening: RigidRun,
     run: Run,
     recorder: StepFiles,
@@ -206,12 +209,15 @@ def _carried_on(
     first, time = at
     pace = Pace(time)
     with ending(partial(_finish, run, recorder, keeper, record)):
-        for k, step in enumerate(steps):
+        for k, one in enumerate(steps):
+            step = one.step(len(one) - 1) if isinstance(one, MechanismGroup) else one
             slabs = min(first + k * opening.every, opening.slabs)
+            if isinstance(one, MechanismGroup):
+                slabs = int(one.slabs[-1])
             with recording(run.path):
-                recorder.take(step, slabs)
-                if keeper.plan.keep:
-                    keeper.took(step.march_state())
+                recorder.take(one, slabs)
+                if keeper.plan.keep:  # only mechanisms keep states of before
+                    keeper.took(step.march_state if isinstance(step, MechanismStep) else step.march_state())
             if progress is not None:
                 wall, speed = pace.at(step.time)
                 progress(MechanismProgress(step=step, until=opening.until, slabs=slabs, wall=wall, pace=speed))
@@ -219,7 +225,7 @@ def _carried_on(
     return run
 
 
-def _first(steps: Iterator[Step], what: str, tell: Tell) -> tuple[Step | None, BaseException | None]:
+def _first(steps: Iterator[One], what: str, tell: Tell) -> tuple[One | None, BaseException | None]:
     """The state at the start, see :func:`first_step`; a line tells if it is being compiled."""
     timer = Timer(PATIENCE, tell, (COMPILING.format(what),))
     timer.daemon = True

@@ -10,10 +10,11 @@ from softway.errors import Cancel, InputError
 from softway.heat.march import HeatState, HeatStep, heat_at_start, march_heat
 from softway.mechanisms.arrays import MechanismState
 from softway.mechanisms.march import march as march_mechanism
+from softway.mechanisms.march import march_groups
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.piles.march import march as march_pile
 from softway.piles.state import PileState
-from softway.record.conduct_rigid import RigidRun, Step, continue_rigid, record_rigid
+from softway.record.conduct_rigid import One, RigidRun, continue_rigid, record_rigid
 from softway.record.pile import outline as pile_outline
 from softway.record.pile.recorder import open_pile
 from softway.record.run import Run
@@ -25,7 +26,7 @@ from softway.record.write.heat.recorder import HeatOpening, open_heat
 from softway.record.write.mechanism import outline
 from softway.record.write.mechanism.probes import BodyReading
 from softway.record.write.mechanism.recorder import open_mechanism
-from softway.record.write.progress import MechanismWatch, Tell
+from softway.record.write.progress import MechanismWatch, Occasional, Tell
 from softway.scenario.checks.heat import CheckedHeat
 from softway.scenario.checks.mechanism import CheckedMechanism
 from softway.scenario.checks.pile import CheckedPile
@@ -51,9 +52,8 @@ def run_rigid(
     InputError, NumericsError, Cancelled, KeyboardInterrupt, StorageError
         As for :func:`softway.run`.
     """
-    return record_rigid(
-        _steps(checked, None, cancel), _opening(checked, texts), place, progress=progress, cancel=cancel, tell=tell
-    )
+    steps = _steps(checked, None, cancel, grouped=_grouped(progress, cancel))
+    return record_rigid(steps, _opening(checked, texts), place, progress=progress, cancel=cancel, tell=tell)
 
 
 def resume_rigid(
@@ -74,12 +74,20 @@ def resume_rigid(
     """
     opening = _opening(checked, texts)
     found = last(stopped.path, partial(_require_state, checked))
-    steps = _steps(checked, None if found is None else cast(RigidState, found.march_state), cancel)
+    begin = None if found is None else cast(RigidState, found.march_state)
+    steps = _steps(checked, begin, cancel, grouped=_grouped(progress, cancel))
     return continue_rigid(steps, opening, stopped, found, progress=progress, cancel=cancel, tell=tell)
 
 
-def _steps(checked: CheckedRigid, state: RigidState | None, cancel: Cancel | None = None) -> Iterator[Step]:
-    """March of a checked scenario, from a state of it on."""
+def _grouped(progress: MechanismWatch | None, cancel: Cancel | None) -> bool:
+    """Whether nobody has to be told of each step."""
+    return (progress is None or isinstance(progress, Occasional)) and cancel is None
+
+
+def _steps(
+    checked: CheckedRigid, state: RigidState | None, cancel: Cancel | None = None, *, grouped: bool = False
+) -> Iterator[One]:
+    """March of a checked scenario, from a state of it on; the states of a mechanism may be ``grouped``."""
     time = checked.scenario.time
     step = time.step if isinstance(time.step, float | int) else checked.step
     if isinstance(checked, CheckedHeat):
@@ -88,7 +96,8 @@ def _steps(checked: CheckedRigid, state: RigidState | None, cancel: Cancel | Non
         given, sweeps = cast(PileState | None, state), checked.scenario.pile.sweeps
         return march_pile(checked.pile, until=time.end, step=step, every=checked.every, sweeps=sweeps, state=given)
     begin = cast(MechanismState | None, state)
-    return march_mechanism(checked.mechanism, until=time.end, step=step, every=checked.every, state=begin)
+    march = march_groups if grouped else march_mechanism
+    return march(checked.mechanism, until=time.end, step=step, every=checked.every, state=begin)
 
 
 def _heat_steps(checked: CheckedHeat, state: HeatState | None, cancel: Cancel | None) -> Iterator[HeatStep]:

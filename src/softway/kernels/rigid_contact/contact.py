@@ -159,13 +159,13 @@ def book_slab(bodies, joints, motion, space, rows, h):
         k = rows[i]
         lost = -motion.impulse[k] * _slid(joints, space, space.z, k, h) / h
         done = motion.impulse[k] * space.rate[k]
-        motion.energy[_group_of(bodies, joints, motion, k)] += done - lost
+        motion.energy[group_of(bodies, joints, motion, k)] += done - lost
         motion.work[0] += done
         motion.work[1] += lost
 
 
 @inlined
-def _group_of(bodies, joints, motion, k):
+def group_of(bodies, joints, motion, k):
     """Group of the bodies of a row."""
     return bodies.group[joints.a[k] if joints.a[k] != len(motion.place) - 1 else joints.b[k]]
 
@@ -209,7 +209,7 @@ def push_contacts(bodies, joints, motion, space, rows, impulse):
     """Change the velocities by impulses (m,) of contact rows, with the joints; book the work of motors and belts."""
     for i in range(len(rows)):
         done = impulse[i] * space.rate[rows[i]]
-        motion.energy[_group_of(bodies, joints, motion, rows[i])] += done
+        motion.energy[group_of(bodies, joints, motion, rows[i])] += done
         motion.work[0] += done
         push_row(joints, motion, space, rows[i], impulse[i])
     project_velocities(bodies, joints, motion, space)

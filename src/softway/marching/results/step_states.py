@@ -6,7 +6,7 @@ from typing import Protocol
 
 from softway.arrays import Array
 from softway.marching.state.march_state import MarchState
-from softway.mechanisms.march import BodyState
+from softway.mechanisms.step import BodyState
 from softway.model.scene import State
 
 

@@ -9,7 +9,7 @@ from softway.arrays import Array
 from softway.kernels.slab.tables import ERROR, FIRST, LAST, WORK, Course
 from softway.marching.state.march_state import MarchState
 from softway.marching.state.model_state import ModelState, split_states
-from softway.mechanisms.march import BodyState
+from softway.mechanisms.step import BodyState
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.solve.equations.slab_values import SlabStart

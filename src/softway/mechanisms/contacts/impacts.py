@@ -13,12 +13,13 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import InputError, NumericsError
+from softway.kernels.rigid_contact.closed_stops import NEAR, NOISE, STILL
+from softway.kernels.rigid_course.course import Course
+from softway.kernels.rigid_course.stops import CHANGED, LOST, TOUCH, fly_rows
 from softway.mechanisms.contacts.slipping import jammed, next_change, tell_sliding
-from softway.mechanisms.contacts.stop_rows import NEAR, NOISE, STILL, Stops
+from softway.mechanisms.contacts.stop_rows import Stops, lost_velocities
 from softway.mechanisms.members.stops import Impacts, Restitution, StopEvent
 
-TOUCH = 1e-14
-"""Gap relative to the extent that is rounding."""
 ROUNDED = 1e-15
 """Velocity relative to that of the extent in a slab that is rounding."""
 SHORT = 1e-4
@@ -80,6 +81,19 @@ class StopMarch:
         self.stops.see_sliding(NOISE * extent / h)
         tell_sliding(self.stops, 0.0, events)
         return events
+
+    def flown(
+        self, table: Course, h: float, begin: int, first: int, total: int, events: list[list[StopEvent]]
+    ) -> tuple[int, NumericsError | None]:
+        """March slabs without touches, into the rows of a table and ``events``: the first left, and what it raises."""
+        stops, end = self.stops, CHANGED
+        while end == CHANGED and first < total:
+            closed = stops.closed.copy()
+            first, end = fly_rows(*stops.tables, stops.table, table, stops.it.extent, h, first, total)
+            for k in np.flatnonzero(closed & ~stops.closed):
+                one = StopEvent(time=(begin + first - 1) * h, stop=stops.names[k], kind="release")
+                events[(first - 1) // table.every].append(one)
+        return first, lost_velocities((begin + first) * h) if end == LOST else None
 
     def slab(self, time: float, h: float, extent: float, told: Array) -> tuple[list[StopEvent], int]:
         """March a slab of length h: its events, and the number of iterations."""
@@ -149,7 +163,7 @@ class StopMarch:
         for k in np.flatnonzero(self.stops.closed & ~closed):
             events.append(StopEvent(time=float(time), stop=self.stops.names[k], kind="release"))
         self.stops.closed[:] = closed
-        self.stops.hold(self.stops.it.bodies.supported)
+        self.stops.hold()
 
     def _first_touch(self, span: float, extent: float) -> tuple[float, int] | None:
         """Length at which the first gap closes, with its solution in the work space; None if none opens before."""
@@ -212,7 +226,7 @@ class StopMarch:
             one = StopEvent(time=float(time + span), stop=self.stops.names[k], kind="touch", located=False)
             events.append(replace(one, velocity_before=-float(speed[k]), velocity_after=float(rebound[k])))
         self.stops.closed[:] = after
-        self.stops.hold(self.stops.it.bodies.supported)
+        self.stops.hold()
         return span, iterations
 
     def _impact(self, time: float, h: float, touching: BoolArray, extent: float, events: list[StopEvent]) -> None:

@@ -11,8 +11,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.kernels.rigid_contact import closed_stops
+from softway.kernels.rigid_contact.closed_stops import NOISE
 from softway.kernels.rigid_contact.contact import compliances
-from softway.mechanisms.contacts.stop_rows import NOISE, Stops
+from softway.mechanisms.contacts.stop_rows import Stops
 from softway.mechanisms.members.stops import StopEvent
 
 EARLY = 1e-6
@@ -133,7 +135,7 @@ def _breaking(stops: Stops, span: float) -> BoolArray:
     """
     rows, friction = stops.closed_rows()
     found = stops.located & stops.closed & ~stops.sliding
-    found[stops.closed] &= ~stops.below_limit(stops.it.motion.impulse[rows], friction)[:, 0]
+    found[stops.closed] &= ~closed_stops.below_limit(stops.it.motion.impulse[rows], friction)[:, 0]
     moved = np.linalg.norm(stops.slid(span), axis=1)
     rounding = ROUNDED * float(np.abs(stops.room.z[:, :3]).max())
     for k in np.flatnonzero(found):
@@ -169,16 +171,5 @@ def tell_sliding(stops: Stops, time: float, events: list[StopEvent]) -> None:
 
 
 def jammed(stops: Stops) -> IntArray:
-    """Closed stops (k,) whose sliding has no continuous course at the present state.
-
-    A normal force with its friction would not push the places of contact apart, ``W_nn - mu W_nt <= 0`` (Painleve).
-    """
-    moving = np.flatnonzero(stops.closed & stops.sliding & (stops.friction[:, 0] > 0.0))
-    if not len(moving):
-        return moving
-    found = []
-    for k, slip in zip(moving, stops.slips()[moving], strict=True):
-        W, speed = compliances(stops.it.joints, stops.room, stops.rows[k])[0][0], float(np.linalg.norm(slip))
-        if W[0] * speed - stops.friction[k, 0] * float(W[stops.tangential] @ slip) <= 0.0 < speed:
-            found.append(k)
-    return np.array(found, dtype=np.int64)
+    """Closed stops (k,) whose sliding has no continuous course at the present state."""
+    return np.flatnonzero(closed_stops.jammed(stops.it.joints, stops.it.motion, stops.room, stops.table))

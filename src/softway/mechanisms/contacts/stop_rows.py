@@ -4,30 +4,19 @@ The impulses of closed stops obey the laws of contact on places over the slab, a
 (docs/theory/mechanisms.md).
 """
 
-import itertools
 from dataclasses import dataclass
 
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import NumericsError
-from softway.kernels.multibody.energy import close_energy, kinetic_energy
-from softway.kernels.multibody.slab import prepare_joints, take_motion, tell_joints
+from softway.kernels.multibody.slab import prepare_joints
 from softway.kernels.multibody.tables import Space
-from softway.kernels.multibody.velocities import row_velocities
-from softway.kernels.rigid_contact.contact import SLIP, book_slab, collide, collide_at_once, solve_contact_slab
+from softway.kernels.rigid_contact import closed_stops
+from softway.kernels.rigid_contact.contact import collide, collide_at_once
+from softway.kernels.rigid_contact.tables import StopTable
+from softway.kernels.rigid_course.stops import try_slab
 from softway.mechanisms.arrays import Arrays
-
-NEAR = 1e-10
-"""Gap relative to the extent at which a stop takes part in an impact."""
-STILL = 1e-9
-"""Velocity relative to the greatest at which a stop is closed after an impact."""
-NOISE = 1e-12
-"""Sliding relative to the extent, in a slab, that is rounding of a stop that sticks."""
-GAINED = 1e-13
-"""Gain of energy, relative to the energy, that is rounding."""
-REBOUNDS = (1.0, 0.75, 0.5, 0.25, 0.0)
-"""Parts of the rebound that are tried until the energy does not grow."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -81,11 +70,8 @@ class Stops:
 
         Those that are ``smooth`` (s,) have no friction in it.
         """
-        rows, friction = self.closed_rows()
-        if smooth is not None:
-            friction = np.where(smooth[self.closed, None], 0.0, friction)
-        self.it.motion.impulse[self.rows[~self.closed].ravel()] = 0.0
-        used: int = solve_contact_slab(*self._tables, rows, friction, span, extent)
+        none = np.zeros(len(self.rows), bool) if smooth is None else smooth
+        used: int = try_slab(*self.tables, self.table, none, span, extent)
         return used
 
     def taken(self, time: float, span: float, extent: float, told: Array, rebound: Array) -> BoolArray:
@@ -99,61 +85,10 @@ class Stops:
         NumericsError
             If no velocities at the end satisfy the laws of contact.
         """
-        it, (rows, friction) = self.it, self.closed_rows()
-        for k in np.flatnonzero(self.closed):
-            lost = float(it.motion.work[1])
-            book_slab(it.bodies, it.joints, it.motion, self.room, self.rows[k], span)
-            self.spent[k] += it.motion.work[1] - lost
-        self.shut[self.closed] += span
-        take_motion(*self._tables, span)
-        through = it.motion.impulse[rows]
-        below = self.below_limit(through, friction)
-        moving = np.concatenate([self.sliding[:, None], self.turning], axis=1)[self.closed] & (friction > 0.0)
-        steady = bool((below & ~moving).all() and (self._table(through)[:, 0] > 0.0).all())
-        steady = steady and not self.room.rate[rows].any()
-        if not steady:
-            told[2] = max(told[2], close_energy(it.bodies, it.springs, it.joints, it.motion, self.room))
-        excess = self.excess()
-        total = self._pushed(rows, friction, through, rebound[self.closed], extent / span)
-        if total is None:
-            raise NumericsError("no velocities satisfy the laws of contact at the closed stops", time, "a shorter step")
-        if steady:
-            told[2] = max(told[2], close_energy(it.bodies, it.springs, it.joints, it.motion, self.room))
-        else:
-            pushed = np.zeros(len(self.rows))
-            pushed[self.closed] = self._table(total)[:, 0]
-            self.lose(excess - self.excess(), pushed)
-        tell_joints(it.joints, it.motion, self.room, told)
-        closed, speed = self.closed.copy(), self.speeds()
-        self.see_sliding(NOISE * extent / span, below[:, 0])
-        closed[self.closed] = (self._table(total)[:, 0] > 0.0) | (
-            (self.gaps()[self.closed] <= NEAR * extent)
-            & (speed[self.closed] <= STILL * float(np.abs(it.motion.velocity).max()))
-        )
-        return closed & (rebound <= 0.0)
-
-    def _pushed(self, rows: IntArray, friction: Array, through: Array, rebound: Array, speed: float) -> Array | None:
-        """Push the closed stops at the end of a slab: their impulses (m,), those that acted ``through`` it included.
-
-        If the energy grew, which rebounds with friction may cause, they are pushed with less rebound.  None if there is
-        no solution.
-        """
-        it = self.it
-        changed = (it.motion.velocity, it.motion.spin, it.motion.energy, it.motion.work)
-        kept, excess = [array.copy() for array in changed], float(self.excess().sum())
-        scale = excess + float(it.motion.energy.sum())
-        for part in REBOUNDS if rebound.any() else REBOUNDS[-1:]:
-            for array, before in zip(changed, kept, strict=True):
-                array[:] = before
-            total, tables = through.copy(), (it.bodies, it.joints, it.motion, self.room)
-            solved = (
-                collide(*tables, rows, friction, through, part * rebound, 0.0 * rebound, speed, total)
-                if len(rows)
-                else 1
-            )
-            if solved and float(self.excess().sum()) <= excess + GAINED * scale:
-                return total
-        return total if solved else None
+        stays = np.zeros(len(self.rows), bool)
+        if not closed_stops.take_contact_slab(*self.tables, self.table, span, extent, told, rebound, stays):
+            raise lost_velocities(time)
+        return stays
 
     def collide(self, these: BoolArray, rebound: Array, lower: Array, speed: float, impulse: Array) -> bool:
         """Impact at some stops (s,) at once, which rebound with velocities (s,) [m/s] at least.
@@ -188,21 +123,23 @@ class Stops:
         return self.collide(these, none, ratio * compression, speed, impulse)
 
     @property
-    def _tables(self) -> tuple[object, ...]:
+    def tables(self) -> tuple[object, ...]:
+        """Tables of the mechanism for the compiled slabs."""
         return self.it.bodies, self.it.joints, self.it.springs, self.it.motion, self.room
+
+    @property
+    def table(self) -> StopTable:
+        """Table of the stops for the compiled slabs."""
+        return StopTable(*(getattr(self, name) for name in StopTable._fields))
 
     def closed_rows(self) -> tuple[IntArray, Array]:
         """Rows (m,) of the closed stops, and their coefficients of friction (c, q)."""
-        return self.rows[self.closed].ravel(), self.coefficients()[self.closed]
+        rows, friction = closed_stops.closed_rows(self.table)
+        return rows, friction
 
     def coefficients(self) -> Array:
         """Coefficients of friction (s, q) at present, those at rest of stops that do not slide."""
-        if not self.located.any():
-            return self.friction
-        found = self.friction.copy()
-        at_rest = self.located & self.closed & ~self.sliding
-        found[at_rest, 0] = self.static[at_rest]
-        return found
+        return np.asarray(closed_stops.coefficients(self.table))
 
     def _table(self, impulse: Array) -> Array:
         """Impulses (c, d) of stops."""
@@ -214,26 +151,9 @@ class Stops:
         d, q = self.rows.shape[1], self.friction.shape[1]
         return slice(1, d if q == 1 else q)
 
-    def below_limit(self, impulse: Array, friction: Array) -> BoolArray:
-        """Closed stops and blocks (c, q) whose friction is below its limit, or that have none."""
-        table = self._table(impulse)
-        return (self._sizes(table) < (1.0 - SLIP) * friction * table[:, :1]) | (friction == 0.0)
-
-    def _sizes(self, table: Array) -> Array:
-        """Magnitudes (c, q) of the blocks of rows (c, d) of stops."""
-        if self.friction.shape[1] == 1:
-            return np.linalg.norm(table[:, 1:], axis=1, keepdims=True)
-        edges = (1, 2, 3) if self.friction.shape[1] == 2 else (1, 3, 5, 6)
-        return np.stack([np.linalg.norm(table[:, i:j], axis=1) for i, j in itertools.pairwise(edges)], axis=1)
-
-    def hold(self, supported: IntArray) -> None:
-        """Groups that the ground holds by joints or closed stops."""
-        joints, ground = self.it.joints, len(self.it.names)
-        supported[:] = self.held
-        for row in self.rows[self.closed, 0]:
-            a, b = int(joints.a[row]), int(joints.b[row])
-            if ground in (a, b):
-                supported[self.it.bodies.group[min(a, b)]] = 1
+    def hold(self) -> None:
+        """Set the groups that the ground holds by joints or closed stops."""
+        closed_stops.hold(self.it.bodies, self.it.joints, self.table)
 
     def gaps(self) -> Array:
         """Gaps (s,) at the end of the part that was tried [m]."""
@@ -250,9 +170,7 @@ class Stops:
 
     def _velocities(self) -> Array:
         """Velocities (s, d) of the gaps and of the sliding [m/s]."""
-        out = np.zeros(len(self.room.g))
-        row_velocities(self.it.joints, self.it.motion, self.room, out)
-        return out[self.rows]
+        return np.asarray(closed_stops.velocities(self.it.joints, self.it.motion, self.room, self.table))
 
     def slips(self) -> Array:
         """Velocities (s, t) of the sliding, against surfaces that may move themselves [m/s]."""
@@ -265,35 +183,19 @@ class Stops:
             out += np.einsum("stc,stc->st", self.room.G[rows, side], self.room.z[self.it.joints.sides[rows, side]])
         return out - span * self.room.rate[rows]
 
-    def see_sliding(self, noise: float, held: BoolArray | None = None) -> None:
-        """Note which stops slide or turn; velocities below ``noise`` [m/s] are none of located stops.
-
-        After a slab these go on sliding, at whatever velocity, if friction has not ``held`` (c,) them.
-        """
-        sizes, motion = self._sizes(self._velocities()), self.it.motion
-        moving = sizes[:, 0] > STILL * float(np.abs(motion.velocity).max())
-        self.turning[:] = sizes[:, 1:] > STILL * float(np.abs(motion.spin).max())
-        if self.located.any():
-            moving &= ~self.located | (sizes[:, 0] > noise)
-            if held is not None:
-                on = self.located & self.sliding & self.closed
-                on[self.closed] &= ~held
-                moving |= on
-        self.sliding[:] = moving
+    def see_sliding(self, noise: float) -> None:
+        """Note which stops slide or turn; velocities below ``noise`` [m/s] are none of located stops."""
+        closed_stops.see_sliding(self.it.motion, self.table, self._velocities(), noise, np.ones(len(self.rows), bool))
 
     def excess(self) -> Array:
         """Kinetic energies (g,) of the groups over the energies that they have to have, up to their potentials [J]."""
-        out = -self.it.motion.energy
-        kinetic_energy(self.it.bodies, self.it.motion, out)
-        return out
+        return np.asarray(closed_stops.excess(self.it.bodies, self.it.motion))
 
     def lose(self, lost: Array, pushed: Array) -> None:
         """Book energies (g,) of the groups that stops dissipated [J], in the ratio of normal impulses (s,)."""
-        self.it.motion.work[1] += float(lost.sum())
-        self.it.motion.energy[:] -= lost
-        first, other = self.it.joints.a[self.rows[:, 0]], self.it.joints.b[self.rows[:, 0]]
-        group = self.it.bodies.group[np.where(first == len(self.it.names), other, first)]
-        for g in np.flatnonzero(lost):
-            here = np.flatnonzero(group == g)
-            weight = pushed[here] if pushed[here].sum() > 0.0 else np.ones(len(here))
-            self.spent[here] += lost[g] * weight / max(float(weight.sum()), 1e-300)
+        closed_stops.lose(self.it.bodies, self.it.joints, self.it.motion, self.table, lost, pushed)
+
+
+def lost_velocities(time: float) -> NumericsError:
+    """Error of a slab from a time on whose end has no velocities."""
+    return NumericsError("no velocities satisfy the laws of contact at the closed stops", time, "a shorter step")

@@ -16,14 +16,15 @@ from softway.kernels.multibody.angles import angles_at
 from softway.kernels.multibody.energy import kinetic_energy, potential_energy
 from softway.kernels.multibody.slab import begin
 from softway.kernels.multibody.velocities import project_velocities
+from softway.kernels.rigid_course.course import course, note_bodies
 from softway.mechanisms.arrays import Arrays, arrays
 from softway.mechanisms.driven import require_free_motions
-from softway.mechanisms.march import BodyState, body_state
 from softway.mechanisms.members.joints import GROUND
 from softway.mechanisms.members.mechanism import Mechanism
 from softway.mechanisms.members.stops import StopEvent
 from softway.mechanisms.newton import march_on
-from softway.mechanisms.welds import Welded, welded
+from softway.mechanisms.step import BodyState, bodies_in
+from softway.mechanisms.welds import Welded, parts_of, welded
 from softway.model.field import StopsInSlab
 from softway.model.rigid.rigid_state import RigidState, at_work
 
@@ -185,8 +186,13 @@ class RigidBodies:
 
     def bodies(self, state: RigidState) -> dict[str, BodyState]:
         """State of each body."""
-        work = at_work(self.joined.mechanism, self.it, state)
-        return {n: body_state(self.mechanism, self.joined, work.it, work.room, n) for n in self.mechanism.bodies}
+        work, parts = (
+            at_work(self.joined.mechanism, self.it, state),
+            parts_of(self.mechanism, self.joined, self.it.names),
+        )
+        table = course(1, 1, *parts, 0, 0)
+        note_bodies(work.it.motion, work.room, table, 0)
+        return bodies_in(table, 0, tuple(self.mechanism.bodies), self.mechanism.dim)
 
     def energies(self, state: RigidState) -> RigidEnergies:
         """Energies in a state."""

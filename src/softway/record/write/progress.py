@@ -10,7 +10,7 @@ from softway.heat.march import HeatStep
 from softway.marching.results.step import Step
 from softway.marching.results.trying import Trying
 from softway.marching.slab.step_group import StepGroup
-from softway.mechanisms.march import MechanismStep
+from softway.mechanisms.step import MechanismStep
 from softway.piles.march import PileStep
 
 RECENT = 30.0

@@ -10,8 +10,8 @@ from softway.bodies.setup.amplitude import Ramp
 from softway.bodies.setup.loads import Gravity
 from softway.bodies.solid import Tool
 from softway.errors import InputError, Note, within
+from softway.kernels.rigid_contact.closed_stops import NEAR
 from softway.mechanisms.arrays import arrays
-from softway.mechanisms.contacts.stop_rows import NEAR
 from softway.mechanisms.driven import check_motions
 from softway.mechanisms.members.joints import GROUND
 from softway.mechanisms.members.mechanism import Mechanism

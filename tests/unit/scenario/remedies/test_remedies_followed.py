@@ -100,7 +100,6 @@ REASONS = {
     "marching/start/stored_state.py: _require": "damaged checkpoints",
     "mechanisms/contacts/impacts.py: start": "a scenario is refused before: tests/unit/mechanisms/test_stops.py",
     "mechanisms/arrays.py: restore": "states of other marches, from Python: tests/unit/mechanisms/test_march_state.py",
-    "mechanisms/march.py: _march_state": "one that has gone on, in Python: tests/unit/mechanisms/test_march_state.py",
     "mechanisms/robots/model_members.py: _joint": ROBOTS,
     "mechanisms/robots/model_members.py: model_bodies": ROBOTS,
     "mechanisms/robots/robot_file.py: _compiled": ROBOTS,

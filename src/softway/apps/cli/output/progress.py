@@ -20,7 +20,7 @@ from rich.progress import (
 from rich.progress import Progress as Display
 
 from softway.heat.march import HeatStep
-from softway.mechanisms.march import MechanismStep
+from softway.mechanisms.step import MechanismStep
 from softway.piles.march import PileStep
 from softway.record.write.progress import MechanismProgress, Occasional, Progress, Tell
 from softway.scenario.checks.check import Checked

@@ -2,12 +2,14 @@
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
+from math import atan2
+from typing import Any
 
 import numpy as np
 
 from softway.arrays import Array
 from softway.bodies.rigid_motion import quaternion
-from softway.mechanisms.march import BodyState, MechanismStep
+from softway.mechanisms.step import BodyState, MechanismGroup
 from softway.record.storage import table
 
 MOTION = "motion.csv"
@@ -16,11 +18,11 @@ MOTION = "motion.csv"
 
 @dataclass(frozen=True, slots=True, eq=False)
 class StepColumn:
-    """Column of the history of a mechanism: name, unit, and value after a step."""
+    """Column of the history of a mechanism: name, unit, and value after a step, or values (k,) of a group."""
 
     name: str
     unit: str
-    value: Callable[[MechanismStep], float]
+    value: Callable[[Any], Any]
 
 
 HISTORY = (
@@ -31,15 +33,15 @@ HISTORY = (
     StepColumn("work_external", "J", lambda step: step.work),
     StepColumn("dissipation", "J", lambda step: step.dissipation),
     StepColumn("energy_error", "J", lambda step: step.energy_error),
-    StepColumn("momentum_x", "kg m/s", lambda step: float(step.momentum[0])),
-    StepColumn("momentum_y", "kg m/s", lambda step: float(step.momentum[1])),
-    StepColumn("momentum_z", "kg m/s", lambda step: float(step.momentum[2])),
-    StepColumn("spin_x", "kg m^2/s", lambda step: float(step.spin[0])),
-    StepColumn("spin_y", "kg m^2/s", lambda step: float(step.spin[1])),
-    StepColumn("spin_z", "kg m^2/s", lambda step: float(step.spin[2])),
+    StepColumn("momentum_x", "kg m/s", lambda step: step.momentum[0]),
+    StepColumn("momentum_y", "kg m/s", lambda step: step.momentum[1]),
+    StepColumn("momentum_z", "kg m/s", lambda step: step.momentum[2]),
+    StepColumn("spin_x", "kg m^2/s", lambda step: step.spin[0]),
+    StepColumn("spin_y", "kg m^2/s", lambda step: step.spin[1]),
+    StepColumn("spin_z", "kg m^2/s", lambda step: step.spin[2]),
     StepColumn("joint_error", "m", lambda step: step.joints),
     StepColumn("joint_velocity_error", "m/s", lambda step: step.joint_velocity),
-    StepColumn("closed_stops", table.COUNT, lambda step: len(step.closed)),
+    StepColumn("closed_stops", table.COUNT, lambda step: step.closed_stops),
 )
 """Columns of every history after that of the slabs (time steps) marched so far."""
 SLABS = ("slabs", table.COUNT)
@@ -69,6 +71,16 @@ def motion_values(state: BodyState) -> Iterator[float]:
         yield from np.asarray(vector, float).tolist()
 
 
+def group_motion(group: MechanismGroup) -> Array:
+    """Values (k, columns) of all bodies in the states of a group."""
+    it, d, found = group.course, group.dim, list[Array]()
+    for b in range(len(group.names)):
+        turned = [rotation_vector(rotation) for rotation in it.rotation[:, b, :d, :d]]
+        spin = it.spin[:, b, 2:] if d == 2 else it.spin[:, b]
+        found += [it.centre[:, b, :d], np.array(turned), it.velocity[:, b, :d], spin]
+    return np.concatenate(found, axis=1)
+
+
 def rotation_vector(rotation: Array) -> Array:
     """Angle times axis (3,) of a rotation (3, 3), or angle (1,) of one in the plane (2, 2), up to half a turn [rad].
 
@@ -78,7 +90,7 @@ def rotation_vector(rotation: Array) -> Array:
     [1.5708]
     """
     if len(rotation) == 2:
-        return np.array([np.arctan2(rotation[1, 0], rotation[0, 0])])
+        return np.array([atan2(rotation[1, 0], rotation[0, 0])])
     turn = quaternion(rotation)
     length = float(np.linalg.norm(turn[1:]))
     if length == 0.0:

@@ -7,8 +7,8 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.errors import InputError
-from softway.mechanisms.march import BodyState, MechanismStep
 from softway.mechanisms.members.mechanism import Mechanism
+from softway.mechanisms.step import BodyState, MechanismStep
 from softway.record.write.mechanism.columns import NEEDED, rotation_vector
 from softway.record.write.probes import COMPONENTS, Probe, require_names
 

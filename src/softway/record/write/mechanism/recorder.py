@@ -4,12 +4,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
 
-from softway.mechanisms.march import MechanismStep
+import numpy as np
+
+from softway.arrays import Array, IntArray
 from softway.mechanisms.members.stops import StopEvent
+from softway.mechanisms.step import MechanismGroup, MechanismStep
 from softway.record.storage.line_files import LineFiles, Rows, open_files
-from softway.record.storage.table import Cells
+from softway.record.storage.table import Cells, line_format
 from softway.record.write import events, history
-from softway.record.write.mechanism.columns import HISTORY, MOTION, SLABS, motion_columns, motion_values
+from softway.record.write.mechanism.columns import HISTORY, MOTION, SLABS, group_motion, motion_columns, motion_values
 from softway.record.write.mechanism.probes import BodyReading
 
 NAN = float("nan")
@@ -26,27 +29,43 @@ def open_mechanism(
 
     Those with ``marks`` exist: they are truncated to these lengths, and continued.
     """
+    probes = tuple((r.name, r.unit) for r in readings)
+    units = ["s", SLABS[1], *(c.unit for c in HISTORY[1:]), *(unit for _, unit in probes)]
+    moved = ["s", *(unit for name in names for _, unit in motion_columns(name, dim))]
 
-    def told(step: MechanismStep, slabs: int) -> Iterator[Cells]:
-        yield [step.time, slabs, *(c.value(step) for c in HISTORY[1:]), *(r.value(step) for r in readings)]
+    def told(one: MechanismStep | MechanismGroup, slabs: int) -> Iterator[Cells | bytes]:
+        if isinstance(one, MechanismStep):
+            yield [one.time, slabs, *(c.value(one) for c in HISTORY[1:]), *(r.value(one) for r in readings)]
+            return
+        states = [one.bodies(k) for k in range(len(one))] if readings else []
+        read = [np.array([r.at(state) for state in states]) for r in readings]
+        yield _block(units, [one.time, one.slabs, *(c.value(one) for c in HISTORY[1:]), *read])
 
-    probes = ((r.name, r.unit) for r in readings)
+    def motion(one: MechanismStep | MechanismGroup, slabs: int) -> Iterator[Cells | bytes]:
+        if isinstance(one, MechanismStep):
+            yield [one.time, *(x for state in one.bodies.values() for x in motion_values(state))]
+        else:
+            yield _block(moved, [one.time, *group_motion(one).T])
+
     heads = {
         history.FILE: (("time", "s"), SLABS, *((c.name, c.unit) for c in HISTORY[1:]), *probes),
         MOTION: (("time", "s"), *(column for name in names for column in motion_columns(name, dim))),
         events.FILE: (*events.COLUMNS, *events.EXTRA),
     }
-    rows: dict[str, Rows] = {history.FILE: told, MOTION: _moved, events.FILE: _happened}
+    rows: dict[str, Rows] = {history.FILE: told, MOTION: motion, events.FILE: _happened}
     return open_files(folder, heads, rows, marks)
 
 
-def _moved(step: MechanismStep, slabs: int) -> Iterator[Cells]:
-    yield [step.time, *(x for state in step.bodies.values() for x in motion_values(state))]
+def _block(units: Sequence[str], columns: Sequence[Array | IntArray]) -> bytes:
+    """Lines of columns (k,)."""
+    table = np.stack(columns, axis=1)
+    return (line_format(units) * len(table) % tuple(table.ravel().tolist())).encode()
 
 
-def _happened(step: MechanismStep, slabs: int) -> Iterator[Cells]:
-    for event in sorted(step.events, key=lambda e: e.time):
-        yield _cells(event)
+def _happened(one: MechanismStep | MechanismGroup, slabs: int) -> Iterator[Cells]:
+    for events_of in [one.events] if isinstance(one, MechanismStep) else one.events:
+        for event in sorted(events_of, key=lambda e: e.time):
+            yield _cells(event)
 
 
 def _cells(event: StopEvent) -> Cells:

@@ -11,8 +11,8 @@ from softway.bodies.prescribed_motion import PlacedShape, Pose
 from softway.marching.results.step import Step
 from softway.marching.results.step_states import Motion
 from softway.marching.slab.step_group import StepGroup
-from softway.mechanisms.march import BodyState
 from softway.mechanisms.members.rigid import Rigid
+from softway.mechanisms.step import BodyState
 from softway.model.scene import State
 from softway.record.storage import table
 from softway.record.storage.table import Lines

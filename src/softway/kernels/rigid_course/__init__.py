@@ -1,0 +1,1 @@
+"""States of rigid mechanisms after every few slabs (time steps), in compiled loops."""
