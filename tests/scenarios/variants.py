@@ -151,7 +151,7 @@ VARIANTS: Mapping[str, Variant] = {
         held={"tube": {"bottom": (0, 1), "top": (0, 1), "left": (0,), "right": (0,)}},  # clamped ends; buckling faces
     ),
     "disc_on_block": Variant(
-        changes=("bodies.block.adapt.levels=3", "bodies.disc.adapt.levels=1", "time.end=0.4 ms", "time.step=20 us"),
+        changes=("bodies.block.adapt.levels=4", "bodies.disc.adapt.levels=2", "time.end=0.4 ms", "time.step=20 us"),
         same="the same bodies meet; larger cells at the finest, until the wave has come into the block",
         held={"disc": {"boundary": (0, 1)}, "block": {"top": (0, 1)}},  # a circle and a line
         sensitive="which of the equal edges of a base cell is cut first, and with it the mesh, changes",
