@@ -8,9 +8,11 @@ counts all of them again, or those with these names, and writes ``counts.json``.
 import argparse
 import json
 from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 from softway.marching.march import march
+from softway.marching.results.step import Step
 from softway.scenario.checks.check import check
 from softway.scenario.scenario import Scenario
 from variants import VARIANTS, small, whole
@@ -27,38 +29,59 @@ CHEAP = (
     "stamp_on_pad",
 )
 """Scenarios that take less than five seconds as they are shipped."""
+WITHIN = 0.05
+"""Greatest difference, relative to the stored number, that a test allows."""
 KINDS = {"small": (small, tuple(sorted(VARIANTS))), "whole": (whole, CHEAP)}
 """Small variants and shipped scenarios: how to get one by its name, and the names."""
 
 
-def counted(scenario: Scenario) -> dict[str, int]:
-    """Number of slabs, of iterations in accepted slabs, of calls between iterations in all attempts, and of rejections.
+@dataclass(frozen=True, slots=True)
+class Count:
+    """What a march costs: iterations and rejections of its slabs, and its calls between iterations in all attempts.
 
     A march asks between iterations if it is cancelled, also in attempts that are rejected.
     """
-    checked = check(scenario)
-    given, calls = checked.scenario, []
 
-    def going_on() -> bool:
-        calls.append(None)
+    slabs: list[tuple[int, int]] = field(default_factory=list)
+    calls: list[None] = field(default_factory=list)
+
+    def cancel(self) -> bool:
+        """Count a call; never cancel."""
+        self.calls.append(None)
         return False
 
+    def take(self, step: Step) -> None:
+        """Count a slab."""
+        self.slabs.append((step.report.iterations, len(step.report.rejections)))
+
+    def numbers(self) -> dict[str, int]:
+        """Number of slabs, of iterations in accepted slabs, of calls and of rejections."""
+        iterations, rejections = (sum(column) for column in zip(*self.slabs, strict=True))
+        return {
+            "slabs": len(self.slabs),
+            "iterations": iterations,
+            "calls": len(self.calls),
+            "rejections": rejections,
+        }
+
+
+def counted(scenario: Scenario) -> dict[str, int]:
+    """:meth:`Count.numbers` of a scenario."""
+    checked, count = check(scenario), Count()
+    given = checked.scenario
     time = given.time
-    steps = [
-        (step.report.iterations, len(step.report.rejections))
-        for step in march(
-            checked.model,
-            until=time.end,
-            step=time.step,
-            weight=time.weight,
-            method=given.solver,
-            control=time.control,
-            tolerance=time.tolerance,
-            cancel=going_on,
-        )
-    ]
-    iterations, rejections = (sum(column) for column in zip(*steps, strict=True))
-    return {"slabs": len(steps), "iterations": iterations, "calls": len(calls), "rejections": rejections}
+    for step in march(
+        checked.model,
+        until=time.end,
+        step=time.step,
+        weight=time.weight,
+        method=given.solver,
+        control=time.control,
+        tolerance=time.tolerance,
+        cancel=count.cancel,
+    ):
+        count.take(step)
+    return count.numbers()
 
 
 def stored() -> Mapping[str, Mapping[str, Mapping[str, int]]]:

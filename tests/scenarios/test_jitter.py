@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 import softway as sw
+from counts import WITHIN, Count, stored
 from jitter import jittered
 from softway.contact.impact_rule import Energy
+from softway.scenario.checks.check import check
 from softway.scenario.scenario import Scenario
 from softway.tolerances import ENERGY
 from variants import OTHERS, SCENARIOS, VARIANTS, each, small, whole
@@ -37,10 +39,11 @@ BALANCE = 10.0 * ENERGY
 """Greatest error of the energy balance of a run, relative to its energies: what ten slabs may miss together."""
 
 
-def ended(scenario: Scenario, folder: Path) -> sw.Run:
-    """Run of a scenario, also one that stopped early."""
+def ended(scenario: Scenario, folder: Path, count: Count | None = None) -> sw.Run:
+    """Run of a scenario, also one that stopped early; ``count`` what it costs."""
+    of = Count() if count is None else count
     try:
-        return sw.run(scenario, folder)
+        return sw.run(check(scenario), folder, progress=lambda seen: of.take(seen.step), cancel=of.cancel)
     except sw.NumericsError:
         return sw.Run(folder)
 
@@ -56,9 +59,22 @@ def given(name) -> Scenario:
 
 
 @pytest.fixture(scope="module")
-def still(name, given, tmp_path_factory) -> sw.Run:
+def count(name) -> Count:
+    """What the run of a variant costs whose nodes are where they are."""
+    return Count()
+
+
+@pytest.fixture(scope="module")
+def still(name, given, count, tmp_path_factory) -> sw.Run:
     """Run of a variant whose nodes are where they are."""
-    return ended(given, tmp_path_factory.mktemp(name) / "run")
+    return ended(given, tmp_path_factory.mktemp(name) / "run", count)
+
+
+def test_the_cost_is_the_stored_one(name, count, still):
+    """Scenarios take no more slabs, iterations and rejections than they did: see test_counts.py."""
+    assert still.stop.reason == "done"
+    expected = stored()["small"][name]
+    assert count.numbers() == pytest.approx(expected, rel=WITHIN), "python tests/scenarios/counts.py stores new numbers"
 
 
 @pytest.mark.parametrize(("size", "seed"), MOVED)

@@ -55,24 +55,31 @@ def _description(module: str, function: str) -> str:
     return (ast.get_docstring(found) or "").partition("\n\nParameters\n")[0]
 
 
-app = App(
-    name="softway",
-    help="Dynamic contact of solids, computed from a scenario file.",
-    version=_version,
-    suppress_keyboard_interrupt=False,
-)
-for _name, _place in COMMANDS.items():
-    app.command(f"softway.apps.cli.{_place}", name=_name, help=_description(*_place.split(":")))
-app.register_install_completion_command(help="Install shell completion of commands and options.")
+def application(described: bool) -> App:
+    """The application; its own help shows what each command does, which needs the sources of all commands."""
+    made = App(
+        name="softway",
+        help="Dynamic contact of solids, computed from a scenario file.",
+        version=_version,
+        suppress_keyboard_interrupt=False,
+    )
+    for name, place in COMMANDS.items():
+        about = {"help": _description(*place.split(":"))} if described else {}
+        made.command(f"softway.apps.cli.{place}", name=name, **about)
+    made.register_install_completion_command(help="Install shell completion of commands and options.")
+    return made
+
+
+app = application(described=False)
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line and return the exit code."""
-    errors = Console(stderr=True)
+    errors, given = Console(stderr=True), list(sys.argv[1:] if arguments is None else arguments)
     try:
         with raised_again(), heard(errors):
-            code = app(
-                sys.argv[1:] if arguments is None else arguments,
+            code = (app if given and given[0] in COMMANDS else application(described=True))(
+                given,
                 exit_on_error=False,
                 print_error=False,
                 result_action="return_value",

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from scipy.sparse import csc_array
@@ -16,6 +17,15 @@ from softway.kernels.jit.lanes import LANES
 from softway.kernels.jit.threads import share
 
 FUSED_SECTIONS = (Volume, PlaneStrain, Axisymmetric)
+Rows = Literal["elastic", "natural", "both"]
+"""Geometry of the points: that of :mod:`softway.kernels.fused.elastic`, of :mod:`softway.kernels.fused.inelastic`, or
+of :mod:`softway.kernels.fused.mean_elastic`.
+"""
+
+
+def averaged(section: Section) -> int:
+    """Number of dimensions that an averaged volume change scales."""
+    return 2 if isinstance(section, PlaneStrain) else 3
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -102,9 +112,9 @@ class KernelCells:
 
 
 def kernel_cells(
-    section: Section, kinds: list[Cells], pattern: Assembler, n: int, path_dependent: bool = False
+    section: Section, kinds: list[Cells], pattern: Assembler, n: int, needed: Rows = "elastic"
 ) -> KernelCells:
-    """Elements of a body with n nodes in the order of the kernels, of path-dependent or of elastic laws."""
+    """Elements of a body with n nodes in the order of the kernels, with the geometry that these need."""
     d = kinds[0].corners.shape[2]
     at, step = pattern.places(d)
     extra, repeated = np.empty(0, np.int64), np.empty(0, np.int64)
@@ -123,7 +133,7 @@ def kernel_cells(
     empty = n + len(extra), len(at) + len(repeated), int(counts[-1])
     return KernelCells(
         blocks=tuple(
-            _block(cells, section, it, (rows, pairs, int(first)), empty, path_dependent)
+            _block(cells, section, it, (rows, pairs, int(first)), empty, needed)
             for cells, (it, rows, pairs), first in zip(kinds, numbered, counts[:-1], strict=True)
         ),
         pattern=pattern,
@@ -140,14 +150,16 @@ def _block(
     it: Parts,
     numbers: tuple[IntArray, IntArray, int],
     empty: tuple[int, int, int],
-    path_dependent: bool,
+    needed: Rows,
 ) -> Block:
     element, (e, q) = cells.element, cells.volume.shape
     table = np.zeros((*element.N.shape, 3))
     table[:, :, : cells.corners.shape[2]] = element.dN
     if isinstance(section, Axisymmetric):
         table[:, :, 2] = element.N
-    geometry = _natural(cells, section, it) if path_dependent else _inverse(cells, section, it)
+    natural = [_natural(cells, section, it)] if needed != "elastic" else []
+    inverse = [_inverse(cells, section, it)] if needed != "natural" else []
+    geometry = np.concatenate([*natural, *inverse], axis=2)
     rows, pairs, first = numbers
     return Block(
         starts=it.starts,

@@ -10,7 +10,6 @@ from softway.arrays import Array, IntArray
 from softway.bodies.elements.kernel_cells import Block
 from softway.bodies.elements.section import Axisymmetric
 from softway.bodies.internal_force.body_force import BodyForce
-from softway.bodies.internal_force.elastic.array_evaluation import ArrayEvaluation
 from softway.bodies.internal_force.elastic.device_evaluation import DeviceEvaluation
 from softway.bodies.internal_force.elastic.elastic_force import ElasticForce
 from softway.bodies.internal_force.elastic.kernel_evaluation import KernelEvaluation
@@ -31,7 +30,8 @@ def served(internal: BodyForce) -> bool:
         return all(served(term.internal) for term in internal.terms)
     if not isinstance(internal, ElasticForce) or isinstance(internal.section, Axisymmetric):
         return False
-    return type(internal.material) in LAWS and not isinstance(internal.work, ArrayEvaluation)
+    work = internal.work.processor if isinstance(internal.work, DeviceEvaluation) else internal.work
+    return type(internal.material) in LAWS and isinstance(work, KernelEvaluation) and work.mean == 0
 
 
 def cell_groups(internal: BodyForce, nodes: IntArray, part: int = 0) -> "list[CellGroup]":

@@ -187,13 +187,17 @@ def remember(s, points, q, X, past, after):
 
 @inlined
 def moved(s, other, slopes, X, d):
-    """Compute the derivatives of the positions at the end of the slab, and their change in the slab."""
+    """Compute the derivatives of the positions at the end of the slab, and their change in the slab.
+
+    Without a history ``other`` is None, and there is no change.
+    """
     differentiate(s, PAST, slopes, FRAME)
     uncouple(s, FRAME, d)
     for row in range(0, TENSOR, LANES):
         store(s, FRAME + row, load(X, row) + load(s, FRAME + row))
-    differentiate(s, other, slopes, STEP)
-    uncouple(s, STEP, d)
+    if other is not None:
+        differentiate(s, other, slopes, STEP)
+        uncouple(s, STEP, d)
 
 
 @inlined

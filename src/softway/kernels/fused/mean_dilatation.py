@@ -98,40 +98,55 @@ def settle(m, motion, law, numbers, rows, points, table, geometry, starts, first
 def means(s, other, kept, width, table, geometry, d):
     """theta at the start and at the end, and the volume of the cells; store the derivatives at all points.
 
-    The data of a point take ``width`` numbers.
+    The data of a point take ``width`` numbers.  Without a history ``other`` is None, and there is nothing at the start.
     """
     before, after, size = spread(0.0), spread(0.0), spread(0.0)
     for q in range(table.shape[0]):
         X, at = geometry[q], kept + q * width
         moved(s, other, table[q], X, d)
-        for row in range(0, TENSOR, LANES):
-            f, change = load(s, FRAME + row), load(s, STEP + row)
-            store(s, at + row, f)
-            store(s, at + TENSOR + row, f - change)
-        end, start = _determinant(s, at), _determinant(s, at + TENSOR)
-        store(s, at + 2 * TENSOR, end)
-        store(s, at + 2 * TENSOR + LANES, start)
-        weight = load(X, TENSOR)
-        before, after, size = before + weight * start, after + weight * end, size + load(X, TENSOR + LANES)
+        after, size = after + load(X, TENSOR) * _stored(s, at, other), size + load(X, TENSOR + LANES)
+        if other is not None:
+            before = before + load(X, TENSOR) * load(s, at + 2 * TENSOR + LANES)
     return before / size, after / size, size
+
+
+@inlined
+def _stored(s, at, other):
+    """Store the derivatives at the end and at the start, and their determinants; return that of the end."""
+    for row in range(0, TENSOR, LANES):
+        f = load(s, FRAME + row)
+        store(s, at + row, f)
+        if other is not None:
+            store(s, at + TENSOR + row, f - load(s, STEP + row))
+    end = determinant(s, at)
+    store(s, at + 2 * TENSOR, end)
+    if other is not None:
+        store(s, at + 2 * TENSOR + LANES, determinant(s, at + TENSOR))
+    return end
 
 
 @inlined
 def scaled(s, at, X, before, after, m):
     """Store the derivatives of F_bar at the end and their change; return ``J/theta`` and ``(theta/J)^(1/m)``."""
     ratio = load(X, TENSOR) / load(X, TENSOR + LANES)
-    x1, x0 = ratio * load(s, at + 2 * TENSOR) / after, ratio * load(s, at + 2 * TENSOR + LANES) / before
-    if m == 3:
-        r1, r0 = inverse_cube_root(x1), inverse_cube_root(x0)
-    else:
-        r1, r0 = 1.0 / root(x1), 1.0 / root(x0)
+    x1 = ratio * load(s, at + 2 * TENSOR) / after
+    r1 = inverse_root(x1, m)
     for row in range(9):
-        end, start = load(s, at + row * LANES), load(s, at + TENSOR + row * LANES)
-        if m == 3 or row in (0, 1, 3, 4):
-            end, start = r1 * end, r0 * start
-        store(s, FRAME + row * LANES, end)
-        store(s, STEP + row * LANES, end - start)
+        end = load(s, at + row * LANES)
+        store(s, FRAME + row * LANES, r1 * end if m == 3 or row in (0, 1, 3, 4) else end)
+    if before is not None:
+        r0 = inverse_root(ratio * load(s, at + 2 * TENSOR + LANES) / before, m)
+        for row in range(9):
+            start = load(s, at + TENSOR + row * LANES)
+            start = r0 * start if m == 3 or row in (0, 1, 3, 4) else start
+            store(s, STEP + row * LANES, load(s, FRAME + row * LANES) - start)
     return x1, r1
+
+
+@inlined
+def inverse_root(x, m):
+    """``x^(-1/m)``."""
+    return inverse_cube_root(x) if m == 3 else 1.0 / root(x)
 
 
 @inlined
@@ -153,7 +168,8 @@ def _split(s, at, weight, x, m):
 
 
 @inlined
-def _determinant(s, at):
+def determinant(s, at):
+    """Determinant of the derivatives ``s[at:]``."""
     a, b, c = load(s, at), load(s, at + LANES), load(s, at + 2 * LANES)
     d, e, f = load(s, at + 3 * LANES), load(s, at + 4 * LANES), load(s, at + 5 * LANES)
     g, h, i = load(s, at + 6 * LANES), load(s, at + 7 * LANES), load(s, at + 8 * LANES)

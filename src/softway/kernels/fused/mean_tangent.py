@@ -1,4 +1,4 @@
-"""Tangent of laws with a history in cells with mean dilatation, its products and its diagonal blocks.
+"""Tangent of the force in cells with mean dilatation, its products and its diagonal blocks.
 
 At a point with the derivatives f_ri of the positions along the reference coordinates, ``F_bar = r F`` has the first and
 the second derivatives
@@ -14,12 +14,16 @@ its volume, the second derivative of the energy is
     y = -r^2 w/m - p,     g = k V J,     b = r^2/m (w - a (f:w)/m) + p - a o/m,     e = r^2 (f:w)/m^2 + o (1/m - 1),
 
 see docs/theory/bodies/incompressible.md and softway.bodies.elements.mean_dilatation.  Arguments are those of
-:mod:`softway.kernels.fused.inelastic`, and the number ``m`` of dimensions that theta scales.
+:mod:`softway.kernels.fused.inelastic`, and the number ``m`` of dimensions that theta scales.  For a stored energy
+``step`` and ``past`` are None, ``geometry`` is that of :mod:`softway.kernels.fused.mean_elastic`, and ``motion`` the
+stage of the strain.  The linear theory has the tangent of displacements that are zero.
 """
 
+from softway.kernels.fused import mean_elastic
 from softway.kernels.fused.history_stages import piola, recall, turn
 from softway.kernels.fused.inelastic import answered, point_moduli
 from softway.kernels.fused.mean_dilatation import means, scaled
+from softway.kernels.fused.mean_elastic import cofactors, flat
 from softway.kernels.fused.stages import (
     collect,
     couple,
@@ -35,7 +39,6 @@ from softway.kernels.jit.compilation import inlined, kernel
 from softway.kernels.jit.lanes import (
     BRIDGE,
     CHANGE,
-    FRAME,
     LANES,
     NATURAL,
     PAST,
@@ -64,26 +67,10 @@ def tangent(
     The matrix is stored as in softway.kernels.fused.elastic.tangent.
     """
     nodes, d = rows.shape[1], u.shape[1]
-    other, mixed, slope, moved, kept = _layout(nodes)
-    sums = kept + table.shape[0] * _KEPT
+    sums = _layout(nodes)[-1] + table.shape[0] * _KEPT
     s = scratch(sums + nodes * nodes * TENSOR)
     for block in range(starts[first], starts[last]):
-        gather(u, rows[block], s, PAST)
-        gather(step, rows[block], s, other)
-        cell = other, kept, table, geometry[block], points[block], past, d
-        theta, quotient = _answers(m, motion, law, numbers, s, *cell)
-        s[mixed:moved] = 0.0
-        s[sums:] = 0.0
-        twice = spread(0.0)
-        for q in range(table.shape[0]):
-            twice = twice + _varied(m, s, kept + q * _KEPT, geometry[block, q], d, moved, quotient)
-            _collected(s, spread(1.0), moved + _MIXED, table[q], mixed)
-            _grown(s, kept + q * _KEPT, theta, table[q], slope)
-            for node in range(nodes):
-                couple(s, moved, table[q], node, nodes, sums + node * nodes * TENSOR)
-        for node in range(nodes):
-            for two in range(node, nodes):
-                _outer(s, mixed, slope, twice, node, two, sums + (node * nodes + two) * TENSOR)
+        _summed(m, motion, law, numbers, s, nodes, rows[block], points[block], table, geometry[block], u, step, past)
         enter(s, sums, pairs[block], at, width, d, out)
 
 
@@ -91,25 +78,10 @@ def tangent(
 def diagonal(m, motion, law, numbers, rows, points, table, geometry, starts, first, last, u, step, past, out):
     """Add the derivative of the force on each node by the displacement of this node [N/m] to ``out`` (n, d, d)."""
     nodes, d = rows.shape[1], u.shape[1]
-    other, mixed, slope, moved, kept = _layout(nodes)
-    sums = kept + table.shape[0] * _KEPT
+    sums = _layout(nodes)[-1] + table.shape[0] * _KEPT
     s = scratch(sums + nodes * TENSOR)
     for block in range(starts[first], starts[last]):
-        gather(u, rows[block], s, PAST)
-        gather(step, rows[block], s, other)
-        cell = other, kept, table, geometry[block], points[block], past, d
-        theta, quotient = _answers(m, motion, law, numbers, s, *cell)
-        s[mixed:moved] = 0.0
-        s[sums:] = 0.0
-        twice = spread(0.0)
-        for q in range(table.shape[0]):
-            twice = twice + _varied(m, s, kept + q * _KEPT, geometry[block, q], d, moved, quotient)
-            _collected(s, spread(1.0), moved + _MIXED, table[q], mixed)
-            _grown(s, kept + q * _KEPT, theta, table[q], slope)
-            for node in range(nodes):
-                couple(s, moved, table[q], node, node + 1, sums)
-        for node in range(nodes):
-            _outer(s, mixed, slope, twice, node, node, sums + node * TENSOR)
+        _summed(m, motion, law, numbers, s, 0, rows[block], points[block], table, geometry[block], u, step, past)
         enter_diagonal(s, sums, rows[block], d, out)
 
 
@@ -122,7 +94,8 @@ def product(m, motion, law, numbers, rows, points, table, geometry, starts, firs
     s = scratch(change + nodes * VECTOR)
     for block in range(starts[first], starts[last]):
         gather(u, rows[block], s, PAST)
-        gather(step, rows[block], s, other)
+        if past is not None:
+            gather(step, rows[block], s, other)
         gather(w, rows[block], s, change)
         cell = other, kept, table, geometry[block], points[block], past, d
         theta, quotient = _answers(m, motion, law, numbers, s, *cell)
@@ -134,7 +107,7 @@ def product(m, motion, law, numbers, rows, points, table, geometry, starts, firs
             grown = grown + load(s, at + _VOLUME) * _nine(s, CHANGE, at + _SLOPE)
         grown = grown / theta
         for q in range(table.shape[0]):
-            twice = twice + _varied(m, s, kept + q * _KEPT, geometry[block, q], d, moved, quotient)
+            twice = twice + _varied(m, s, kept + q * _KEPT, geometry[block, q], past, d, moved, quotient)
             _changed(s, change, table[q], d)
             along = along + _nine(s, CHANGE, moved + _MIXED)
             _grown(s, kept + q * _KEPT, theta, table[q], slope)
@@ -144,6 +117,30 @@ def product(m, motion, law, numbers, rows, points, table, geometry, starts, firs
         for row in range(0, nodes * VECTOR, LANES):
             store(s, mixed + row, fma(along, load(s, slope + row), load(s, mixed + row)))
         scatter(s, mixed, rows[block], out)
+
+
+@inlined
+def _summed(m, motion, law, numbers, s, stride, rows, points, table, geometry, u, step, past):
+    """Sum the entries of all pairs of ``stride`` nodes, or with ``stride`` 0 those of each node with itself."""
+    nodes, d = rows.shape[0], u.shape[1]
+    other, mixed, slope, moved, kept = _layout(nodes)
+    sums = kept + table.shape[0] * _KEPT
+    gather(u, rows, s, PAST)
+    if past is not None:
+        gather(step, rows, s, other)
+    theta, quotient = _answers(m, motion, law, numbers, s, other, kept, table, geometry, points, past, d)
+    s[mixed:moved] = 0.0
+    s[sums:] = 0.0
+    twice = spread(0.0)
+    for q in range(table.shape[0]):
+        twice = twice + _varied(m, s, kept + q * _KEPT, geometry[q], past, d, moved, quotient)
+        _collected(s, spread(1.0), moved + _MIXED, table[q], mixed)
+        _grown(s, kept + q * _KEPT, theta, table[q], slope)
+        for node in range(nodes):
+            couple(s, moved, table[q], node, max(stride, node + 1), sums + node * stride * TENSOR)
+    for node in range(nodes):
+        for two in range(node, max(stride, node + 1)):
+            _outer(s, mixed, slope, twice, node, two, sums + (node * stride + two) * TENSOR)
 
 
 @inlined
@@ -159,47 +156,58 @@ def _layout(nodes):
 @inlined
 def _answers(m, motion, law, numbers, s, other, kept, table, geometry, points, past, d):
     """Keep f, a, V J, r, o and the answer of the law of all points; return ``V theta`` of the cells and the mean k."""
-    before, after, size = means(s, other, kept, _KEPT, table, geometry, d)
+    if past is None:
+        _, after, size = means(s, None, kept, _KEPT, table, geometry, d)
+    else:
+        before, after, size = means(s, other, kept, _KEPT, table, geometry, d)
     quotient = spread(0.0)
     for q in range(table.shape[0]):
         X, at = geometry[q], kept + q * _KEPT
-        x, r = scaled(s, at, X, before, after, m)
-        recall(s, points, q, past)
-        answered(motion, law, numbers, s, len(past[2]) > 0)
-        turn(s, STRESS)
-        turn(s, BRIDGE)
-        store(s, SHRINK, 1.0 / load(s, VOLUME))
-        piola(s, load(X, TENSOR))
-        own = r * _flat(s, NATURAL, at, m) / (1.0 * m)
+        if past is None:
+            x, r = scaled(s, at, X, None, after, m)
+            mean_elastic.respond(s, X, motion, law, numbers, d)
+            mean_elastic.stress(s, X)
+        else:
+            x, r = scaled(s, at, X, before, after, m)
+            recall(s, points, q, past)
+            answered(motion, law, numbers, s, len(past[2]) > 0)
+            turn(s, STRESS)
+            turn(s, BRIDGE)
+            store(s, SHRINK, 1.0 / load(s, VOLUME))
+            piola(s, load(X, TENSOR))
+        own = r * flat(s, NATURAL, at, m) / (1.0 * m)
         quotient = quotient + own
-        turned = r * load(s, SHRINK)
-        for row in range(0, TENSOR, LANES):
-            store(s, at + _SLOPE + row, turned * load(s, FRAME + row))
+        cofactors(s, at, 1.0 / load(s, at + _VOLUME), at + _SLOPE)
         store(s, at + _VOLUME, x * after * load(X, TENSOR + LANES))
         store(s, at + _ROOT, r)
         store(s, at + _PULL, own)
         for row in range(0, _ROWS, LANES):
             store(s, at + _ANSWER + row, load(s, row))
-        for row in range(0, 2 * LANES, LANES):
-            store(s, at + _ANSWER + _ROWS + row, load(s, SHRINK + row))
+        if past is not None:
+            for row in range(0, 2 * LANES, LANES):
+                store(s, at + _ANSWER + _ROWS + row, load(s, SHRINK + row))
     return size * after, quotient / (size * after)
 
 
 @inlined
-def _varied(m, s, at, X, d, to, quotient):
+def _varied(m, s, at, X, past, d, to, quotient):
     """Write N and b of a point to ``s[to:]``; return e."""
     for row in range(0, _ROWS, LANES):
         store(s, row, load(s, at + _ANSWER + row))
-    for row in range(0, 2 * LANES, LANES):
-        store(s, SHRINK + row, load(s, at + _ANSWER + _ROWS + row))
-    point_moduli(s, X, d, to)
-    piola(s, load(X, TENSOR))
+    if past is None:
+        mean_elastic.stiffness(s, X, d, to)
+        mean_elastic.stress(s, X)
+    else:
+        for row in range(0, 2 * LANES, LANES):
+            store(s, SHRINK + row, load(s, at + _ANSWER + _ROWS + row))
+        point_moduli(s, X, d, to)
+        piola(s, load(X, TENSOR))
     share = 1.0 / m
     root, own, grown = load(s, at + _ROOT), load(s, at + _PULL), quotient * load(s, at + _VOLUME)
     square, pull = root * root, share * root
     y, w = to + _MIXED + _NINE, to + _MIXED + 2 * _NINE
     _stretched(s, to, at, m, w)
-    along = share * share * (square * _flat(s, w, at, m))
+    along = share * share * (square * flat(s, w, at, m))
     for row in range(0, TENSOR, LANES):
         a, p, stiff = load(s, at + _SLOPE + row), pull * load(s, NATURAL + row), share * (square * load(s, w + row))
         store(s, y + row, -1.0 * (stiff + p))
@@ -235,16 +243,6 @@ def _stretched(s, to, at, m, w):
                         place = to + (27 * r + 9 * t + 3 * i + j) * LANES
                         total = fma(load(s, place), load(s, at + (3 * t + j) * LANES), total)
             store(s, w + (3 * r + i) * LANES, total)
-
-
-@inlined
-def _flat(s, one, f, m):
-    """Product of a flux with f in the dimensions that theta scales."""
-    total = spread(0.0)
-    for row in range(9):
-        if m == 3 or row in (0, 1, 3, 4):
-            total = fma(load(s, one + row * LANES), load(s, f + row * LANES), total)
-    return total
 
 
 @inlined

@@ -31,6 +31,7 @@ _SHARED = (
     "fused/history_stages.py",
     "fused/inelastic.py",
     "fused/mean_dilatation.py",
+    "fused/mean_elastic.py",
     "fused/stages.py",
     "mortar/simplices.py",
     "mortar/tables.py",

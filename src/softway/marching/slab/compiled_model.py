@@ -23,8 +23,10 @@ from softway.model.model import Model
 from softway.model.time_weight import EndPeaks, moments
 from softway.solve.methods.fixed_point import FixedPoint
 
-SLABS = 50
-"""Number of slabs of a march from which compiled ones pay."""
+SLABS = 200
+"""Number of slabs of a march from which compiled ones pay: the others take less than the compilation of the kernels,
+and half a second where these are compiled.
+"""
 LARGEST = 3e5
 """Greatest number of entries of the band of a factor: beyond it, sparse factors are faster."""
 TRANSLATED = 1e-12

@@ -32,11 +32,31 @@ from softway.model.slab import Slab
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class GroupNumbers:
+    """Numbers of successive slabs: those of a :class:`~softway.marching.results.step.Step` with arrays of one value
+    for each slab, or one value where all are the same.
+
+    Parameters
+    ----------
+    slab
+        Intervals of the slabs.
+    ledger
+        Energies and momenta.
+    certificate
+        Residuals.
+    report
+        Iterations.
+    """
+
+    slab: Slab
+    ledger: Ledger
+    certificate: Certificate
+    report: Report
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class StepGroup:
     """Slabs of a batch, from the number ``start`` up to the one before ``stop``.
-
-    ``slab``, ``ledger``, ``certificate`` and ``report`` are those of a :class:`~softway.marching.results.step.Step`
-    with arrays of one value for each slab, or one value where all are the same.
 
     Parameters
     ----------
@@ -74,23 +94,18 @@ class StepGroup:
         first, last = time[self.start : self.stop], time[self.start + 1 : self.stop + 1]
         return Slab(start=first, end=last, weight=self.batch.begun.settings.weight)
 
-    @property
-    def ledger(self) -> Ledger:
-        """Energies and momenta."""
-        return _ledger(self.batch, self._sums, self._contacts)
-
-    @property
-    def certificate(self) -> Certificate:
-        """Residuals."""
-        return _certificate(self._sums, self._errors, self._contacts)
-
-    @property
-    def report(self) -> Report:
-        """Iterations."""
-        batch = self.batch
-        found: Any = np.array(batch.iterations[self.start : self.stop])
-        ratios: Any = np.array(batch.contractions[self.start : self.stop])
-        return _report(batch, found, ratios)
+    def numbers(self) -> GroupNumbers:
+        """Numbers of all slabs."""
+        batch, which = self.batch, slice(self.start, self.stop)
+        iterations: Any = np.array(batch.iterations[which])
+        ratios: Any = np.array(batch.contractions[which])
+        sums, contacts = self._sums, self._contacts
+        return GroupNumbers(
+            slab=self.slab,
+            ledger=_ledger(batch, sums, contacts),
+            certificate=_certificate(sums, self._errors, contacts),
+            report=_report(batch, iterations, ratios),
+        )
 
     @property
     def motion(self) -> BatchMotion:

@@ -108,9 +108,9 @@ class Watcher:
 
     def _group(self, group: StepGroup) -> Iterator[Step | StepGroup]:
         """Parts of a group between its slabs with findings, which become steps."""
-        slab, ledger, begin = group.slab, group.ledger, 0
-        columns = [np.broadcast_to(getattr(ledger, name), len(group)).tolist() for name in ENERGIES]
-        times = zip(np.ravel(slab.end).tolist(), np.ravel(slab.span).tolist(), strict=True)
+        numbers, begin = group.numbers(), 0
+        columns = [np.broadcast_to(getattr(numbers.ledger, name), len(group)).tolist() for name in ENERGIES]
+        times = zip(np.ravel(numbers.slab.end).tolist(), np.ravel(numbers.slab.span).tolist(), strict=True)
         for k, ((end, span), energies) in enumerate(zip(times, zip(*columns, strict=True), strict=True)):
             gained = self._energy.took(end, *energies)
             found = tuple(given_back(self._energy, gained, end, span))

@@ -35,8 +35,8 @@ class History:
 
     def take_group(self, group: StepGroup) -> None:
         """Write the lines of slabs that were compiled together."""
-        count = len(group)
-        values: list[Any] = [column.value(group) for column in self.columns]
+        count, numbers = len(group), group.numbers()
+        values: list[Any] = [column.value(numbers) for column in self.columns]
         if self.opening.readings:
             motion, reactions = group.motion, group.reactions
             values += [r.values(motion, reactions) for r in self.opening.readings]

@@ -25,7 +25,7 @@ class Column:
     name, unit
         Name and unit of the values.
     value
-        Value after a step, or the values (k,) after k steps of a group; one value if all are the same.
+        Value after a step, or the values (k,) of the numbers of k slabs; one value if all are the same.
     initial
         Value in the line of the initial state.
     """

@@ -248,6 +248,16 @@ def test_what_computes_nothing_loads_no_numbers(arguments):
     assert done.stdout.splitlines()[-1] == "False"
 
 
+def test_the_first_run_of_an_installation_does_not_compile_slabs(tmp_path):
+    text = (
+        "from softway.apps.cli import main\n"
+        "main(['new', 'bar']); main(['run', 'bar.toml', '--quiet', '--out', 'bar'])\n"
+        "from softway.kernels.slab.march import factor, slabs; print(factor.signatures, slabs.signatures)"
+    )
+    done = subprocess.run([sys.executable, "-c", text], capture_output=True, text=True, check=True, cwd=tmp_path)
+    assert done.stdout.splitlines()[-1] == "[] []" and (tmp_path / "bar" / "history.csv").exists()
+
+
 def test_every_command_is_described_before_it_is_loaded(capsys):
     assert cli.main(["--help"]) == 0
     said = " ".join(capsys.readouterr().out.replace("│", " ").split())

@@ -12,6 +12,7 @@ from numba import njit
 from scipy.spatial.transform import Rotation
 
 from softway.arrays import Array
+from softway.bodies.elements.quadrature import Dilating
 from softway.bodies.elements.section import Axisymmetric, Bar, PlaneStrain, PlaneStress, Section, Volume
 from softway.bodies.internal_force.elastic.array_evaluation import ArrayEvaluation
 from softway.bodies.internal_force.elastic.elastic_force import ElasticForce, elastic_force
@@ -72,14 +73,26 @@ def test_kernels_agree_with_arrays(law: StoredEnergy, cell: str, section: Sectio
         compare(body, u, w)
 
 
-def compare(body: ElasticForce, u: Array, w: Array) -> None:
-    """Everything the kernels compute, at the displacement u and its change w."""
+@pytest.mark.parametrize(("law", "cell", "section"), EVERY)
+def test_mean_dilatation(law: StoredEnergy, cell: str, section: Section) -> None:
+    mesh = irregular_patch(cell)
+    body = elastic_force(mesh, law, section, "mean")
+    assert isinstance(body.work, KernelEvaluation)
+    w = noise(mesh, 1.0, 2)
+    for u in states(mesh, section, law):
+        compare(body, u, w, 0.05)  # the arrays subtract I from I + H
+
+
+def compare(body: ElasticForce, u: Array, w: Array, rounded: float = 0.0) -> None:
+    """Everything the kernels compute, at the displacement u and its change w; ``rounded`` is the size of numbers whose
+    rounding remains where there is no displacement.
+    """
     plain = body.plain
     stiffness = plain.tangent(u)
     size = abs(stiffness).max()
     (W, f), (energy, force) = plain.energy_and_force(u), body.energy_and_force(u)
-    assert energy == pytest.approx(W, rel=1e-13)
-    assert_close(force, f, size * np.abs(u).max())
+    assert energy == pytest.approx(W, rel=1e-13, abs=1e-13 * rounded * size * (np.abs(u).max() + 1e-16))
+    assert_close(force, f, size * (np.abs(u).max() + rounded))
     assert energy == body.energy(u)
     assert np.array_equal(force, body.force(u))
     matrix = body.tangent(u)
@@ -108,15 +121,16 @@ def test_cells_of_two_kinds() -> None:
     compare(body, noise(mesh, 0.04), noise(mesh, 1.0, 2))
 
 
-@pytest.fixture(scope="module", params=["hex8", "tet4", "quad4"])
+@pytest.fixture(scope="module", params=["hex8", "tet4", "quad4", "quad4 mean"])
 def large(request: pytest.FixtureRequest) -> tuple[ElasticForce, Array]:
     """A body of several parts, moved."""
-    if request.param == "quad4":
+    cell, _, mean = request.param.partition(" ")
+    if cell == "quad4":
         mesh = rectangle((3.0, 1.0), cells=(150, 60))
     else:
-        n = 16 if request.param == "hex8" else 18
-        mesh = box((1.0, 1.0, 1.0), cells=(n, n, n), cell=request.param)
-    body = elastic_force(mesh, SOFT, PlaneStrain() if mesh.dim == 2 else Volume())
+        n = 16 if cell == "hex8" else 18
+        mesh = box((1.0, 1.0, 1.0), cells=(n, n, n), cell=cell)
+    body = elastic_force(mesh, SOFT, PlaneStrain() if mesh.dim == 2 else Volume(), "mean" if mean else "point")
     assert len(body.work.cells.blocks[0].starts) - 1 >= 4
     return body, noise(mesh, 0.02)
 
@@ -157,10 +171,11 @@ def test_two_models_at_once(large: tuple[ElasticForce, Array]) -> None:
 
 
 @pytest.mark.parametrize("law", LAWS[1:], ids=lambda law: type(law).__name__)
+@pytest.mark.parametrize("dilatation", ["point", "mean"])
 @pytest.mark.parametrize("cell", ["tri3", "quad4", "tet4", "hex8"])
-def test_inverted_elements_have_infinite_energy(cell: str, law: StoredEnergy) -> None:
+def test_inverted_elements_have_infinite_energy(cell: str, dilatation: Dilating, law: StoredEnergy) -> None:
     mesh = irregular_patch(cell)
-    body = elastic_force(mesh, law, PlaneStrain() if mesh.dim == 2 else Volume())
+    body = elastic_force(mesh, law, PlaneStrain() if mesh.dim == 2 else Volume(), dilatation)
     u = np.zeros_like(mesh.points)
     u[:, 0] = -2.0 * mesh.points[:, 0]
     assert body.energy(u) == np.inf

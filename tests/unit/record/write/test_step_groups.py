@@ -107,5 +107,5 @@ def test_numbers_of_a_group_are_those_of_its_steps(case) -> None:
         assert len(steps) == len(group) and steps[-1].slab == group.step(len(group) - 1).slab
         for column in columns(group.model.contacts.labels):
             each = [column.value(step) for step in steps]
-            np.testing.assert_array_equal(np.broadcast_to(column.value(group), len(group)), each, column.name)
+            np.testing.assert_array_equal(np.broadcast_to(column.value(group.numbers()), len(group)), each, column.name)
         assert group.march_state.state.time == steps[-1].march_state.state.time  # the same bits

@@ -6,7 +6,7 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from softway.arrays import Array, IntArray
-from softway.bodies.elements.kernel_cells import FUSED_SECTIONS, kernel_cells
+from softway.bodies.elements.kernel_cells import FUSED_SECTIONS, Rows, averaged, kernel_cells
 from softway.bodies.elements.quadrature import Dilating, sampled_cells
 from softway.bodies.elements.section import Section, free_axes
 from softway.bodies.elements.strain_operator import StrainOperator
@@ -185,10 +185,12 @@ def elastic_force(mesh: Mesh, material: StoredEnergy, section: Section, dilatati
     sampled = sampled_cells(mesh, section, dilatation, small=isinstance(material.measure, Small))
     points = MaterialPoints(law=material, free=free_axes(section), directions=sampled.directions)
     plain = ArrayEvaluation(sampling=sampled.sampling, points=points)
-    fused = isinstance(section, FUSED_SECTIONS) and dilatation == "point"
+    fused = isinstance(section, FUSED_SECTIONS) and dilatation != "corner"
     law = compiled(material) if fused else None
-    pattern = sampled.sampling.pattern
     work: ArrayEvaluation | KernelEvaluation = plain
     if law is not None:
-        work = KernelEvaluation(law=law, cells=kernel_cells(section, list(sampled.kinds), pattern, mesh.n_nodes))
+        needed: Rows = "elastic" if dilatation == "point" else "both"
+        cells = kernel_cells(section, list(sampled.kinds), sampled.sampling.pattern, mesh.n_nodes, needed)
+        mean = 0 if dilatation == "point" else averaged(section)
+        work = KernelEvaluation(law=law, cells=cells, mean=mean, small=isinstance(material.measure, Small))
     return ElasticForce(material=material, section=section, plain=plain, work=work)

@@ -6,9 +6,9 @@ import numpy as np
 from scipy.sparse import csc_array
 
 from softway.arrays import Array, IntArray
-from softway.bodies.elements.kernel_cells import FUSED_SECTIONS, kernel_cells
+from softway.bodies.elements.kernel_cells import FUSED_SECTIONS, averaged, kernel_cells
 from softway.bodies.elements.quadrature import Dilating, SampledCells, sampled_cells
-from softway.bodies.elements.section import PlaneStrain, Section, free_axes
+from softway.bodies.elements.section import Section, free_axes
 from softway.bodies.elements.strain_operator import StrainOperator
 from softway.bodies.internal_force.body_force import BodyForce
 from softway.bodies.internal_force.inelastic.array_evaluation import RateArrayEvaluation
@@ -221,6 +221,6 @@ def _work(
     law = compiled_rate(plain.points.law)
     if law is None or dilatation == "corner" or not isinstance(section, FUSED_SECTIONS):
         return plain
-    cells, volume = kernel_cells(section, list(sampled.kinds), pattern, n, path_dependent=True), plain.sampling.volume
-    mean = 0 if dilatation == "point" else 2 if isinstance(section, PlaneStrain) else 3
+    cells, volume = kernel_cells(section, list(sampled.kinds), pattern, n, "natural"), plain.sampling.volume
+    mean = 0 if dilatation == "point" else averaged(section)
     return RateKernelEvaluation(law=law, cells=cells, volume=volume, mean=mean)

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,9 +59,8 @@ class RateKernelEvaluation:
         given, d = self._given(u, state), u.shape[1]
         out = self.cells.entries(d)
         for block in self.cells.blocks:
-            self._share(
-                self._stiff("tangent"), block, *given, block.pairs, self.cells.at, self.cells.step, out, moduli=True
-            )
+            kernel = partial(mean_tangent.tangent, self.mean) if self.mean else inelastic.tangent
+            self._share(kernel, block, *given, block.pairs, self.cells.at, self.cells.step, out, moduli=True)
         return self.cells.matrix(out, d)
 
     def secant(self, u: Array, state: MaterialState, span: float) -> csc_array:
@@ -73,7 +72,8 @@ class RateKernelEvaluation:
         given, change = self._given(u, state), self.cells.rows(w)
         out = np.zeros_like(change)
         for block in self.cells.blocks:
-            self._share(self._stiff("product"), block, *given, change, out, moduli=True)
+            kernel = partial(mean_tangent.product, self.mean) if self.mean else inelastic.product
+            self._share(kernel, block, *given, change, out, moduli=True)
         return self.cells.folded(out, len(u))
 
     def tangent_diagonal_blocks(self, u: Array, state: MaterialState, span: float) -> Array:
@@ -81,7 +81,8 @@ class RateKernelEvaluation:
         given = self._given(u, state)
         out = np.zeros((*given[0].shape, u.shape[1]))
         for block in self.cells.blocks:
-            self._share(self._stiff("diagonal"), block, *given, out, moduli=True)
+            kernel = partial(mean_tangent.diagonal, self.mean) if self.mean else inelastic.diagonal
+            self._share(kernel, block, *given, out, moduli=True)
         return self.cells.folded(out, len(u))
 
     def committed(self, u: Array, state: MaterialState, span: float) -> MaterialState:
@@ -110,11 +111,6 @@ class RateKernelEvaluation:
             self._share(kernel, block, *given, out, energy, law=law)
         total = float(np.einsum("p,p->", self.volume, state.stored)) + float(np.concatenate(energies).sum())
         return total if np.isfinite(total) else np.inf, self.cells.folded(out, len(u))
-
-    def _stiff(self, name: Literal["tangent", "product", "diagonal"]) -> Callable[..., None]:
-        """Kernel of the tangent, its product or its diagonal blocks."""
-        kernel = getattr(mean_tangent if self.mean else inelastic, name)
-        return partial(kernel, self.mean) if self.mean else kernel
 
     def _given(self, u: Array, state: MaterialState) -> tuple[Array, Array, tuple[Array, ...]]:
         """Displacement, its change in the slab, and the history variables, for kernels."""
