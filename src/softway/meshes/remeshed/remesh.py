@@ -105,6 +105,17 @@ class Remesh:
         jacobian, angle, ratio = quality
         return jacobian >= self.quality and angle >= self.angle and ratio <= self.ratio
 
+    def improves(self, new: Quality, now: Quality) -> bool:
+        """Whether a new mesh is worth its change: the present cells are a fifth worse in a measure, and the new ones
+        are within the limits or a fifth worse in none.
+
+        Examples
+        --------
+        >>> Remesh().improves((0.5, 40.0, 3.0), (0.2, 20.0, 5.0)), Remesh().improves((0.22, 20.0, 5.0), (0.2, 20.0, 5.0))
+        (True, False)
+        """
+        return worse(now, new) and (self.within(new) or not worse(new, now))
+
 
 def worse(now: Quality, last: Quality) -> bool:
     """Whether a measure is a fifth worse than it was.

@@ -98,7 +98,8 @@ class FormedScene:
         since = now.slabs - (0 if stored is None else stored.changed)
         for name, how in replacements(self.scene).items():
             quality = self.quality(now, name)
-            short = history.rejected > 0 and now.state.span < how.shortened * history.span
+            crawls = history.rejected > 0 and now.state.span < how.shortened * history.span
+            short = crawls and worse(quality, self.new[name])
             reason = how.asks(quality, self.new[name]) or (f"slab of {now.state.span:.3g} s" if short else "")
             failed = None if stored is None else stored.failed.get(name)
             if reason and since >= how.every and (failed is None or worse(quality, failed)):
