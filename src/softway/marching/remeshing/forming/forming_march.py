@@ -69,9 +69,7 @@ def _change(on: FormedScene, now: MarchState) -> Change[FormedScene] | None:
     return _failing(change, on, now, stay)
 
 
-def _rescue(
-    on: FormedScene, now: MarchState, tried: bool, failure: NumericsError
-) -> Change[FormedScene] | None:
+def _rescue(on: FormedScene, now: MarchState, tried: bool, failure: NumericsError) -> Change[FormedScene] | None:
     """Change before another try of a slab that failed at every length: new meshes of the solids whose cells are a
     fifth worse than new ones, or back to the old ones if the slab has failed on new meshes; None if there is none.
 

@@ -7,16 +7,18 @@ import pytest
 
 import softway as sw
 from softway.apps.verify.scenes import taylor
+from softway.errors import NumericsError
 from softway.laws.law import Material
 from softway.marching.remeshing.forming.carried import carried_on
-from softway.marching.remeshing.forming.formed_scene import formed_scene
+from softway.marching.remeshing.forming.formed_scene import _uncleared, formed_scene
+from softway.marching.remeshing.forming.forming_march import _rescue
 from softway.marching.remeshing.forming.replacement import replacement
 from softway.marching.state.march_state import RemeshedMeshes
 from softway.meshes.remeshed.remesh import Remesh
 
 ENERGY = 0.5 * taylor.DENSITY * np.pi * taylor.RADIUS**2 * taylor.LENGTH * 227.0**2
 STEP = 0.78e-6
-FAST = sw.laws.Maxwell(E=117e9, nu=0.35, shares=(0.3, 0.2), times=(0.2 * STEP, 2.0 * STEP))
+FAST = sw.laws.Maxwell(E=30e9, nu=0.35, shares=(0.3, 0.2), times=(0.2 * STEP, 2.0 * STEP))
 HOW = Remesh(by="new cells", quality=0.75, shortened=0.0)
 
 
@@ -33,7 +35,7 @@ def thrown(material: Material | None, how: Remesh | None) -> sw.Scene:
 @pytest.mark.parametrize("material", [None, FAST], ids=["plastic", "relaxing"])
 def test_new_meshes_take_no_energy(material: Material | None) -> None:
     steps = list(sw.march(thrown(material, HOW), until=10 * STEP, step=STEP, method=taylor.METHOD))
-    assert sum(bool(one.exchanges) for one in steps) >= 2
+    assert sum(bool(one.exchanges) for one in steps) >= 1
     assert abs(steps[-1].ledger.remeshing) < 1e-12 * ENERGY
     assert max(abs(one.ledger.energy_error) for one in steps) < 1e-8 * ENERGY
 
@@ -68,8 +70,33 @@ def test_good_cells_are_not_replaced_because_slabs_are_short() -> None:
         assert not on.asks(now)
 
 
-def test_a_mesh_that_is_hardly_better_is_not_made() -> None:
-    steps = list(sw.march(thrown(None, None), until=STEP, step=STEP, method=taylor.METHOD))
-    on = formed_scene(sw.build(thrown(None, HOW)))
-    now = replace(steps[0].march_state, remeshed=RemeshedMeshes(meshes=on.meshes))
-    assert replacement(on, Remesh(by="rezone"), now, "bar") is None
+def test_a_body_whose_surface_crosses_itself() -> None:
+    """The error names the solid, and a contact that keeps its sides apart."""
+    (step,) = sw.march(thrown(None, HOW), until=STEP, step=STEP, method=taylor.METHOD)
+    on, now = formed_scene(step.model), step.march_state
+    mesh, u = on.part("bar").mesh, np.array(now.state.start.displacement)
+    assert on.crossing(now, "bar") is None
+    corner = int((mesh.points[:, 0] + mesh.points[:, 1]).argmax())
+    u[on.part("bar").nodes.start + corner] -= [4.0 * taylor.RADIUS, 3.0 * taylor.RADIUS]
+    start = replace(now.state.start, displacement=u)
+    assert now.remeshed is not None
+    rescued = replace(now.remeshed, rescued=now.state.time)
+    folded = replace(now, state=replace(now.state, start=start), remeshed=rescued)
+    with pytest.raises(NumericsError, match="the surface of 'bar' crosses itself") as caught:
+        _rescue(on, folded, False, NumericsError("no time step was accepted", 1.0))
+    assert '["bar", "bar"]' in caught.value.remedy
+    assert _rescue(on, replace(now, remeshed=rescued), False, NumericsError("no time step was accepted", 1.0)) is None
+
+
+def test_gaps_of_other_shapes_are_no_offsets() -> None:
+    """Curved facets that overlap at the start have gaps with an offset; those of a new mesh are of the present shape."""
+    scene = thrown(None, HOW)
+    on = formed_scene(sw.build(scene))
+    (step,) = sw.march(thrown(None, None), until=STEP, step=STEP, method=taylor.METHOD)
+    now = replace(step.march_state, remeshed=RemeshedMeshes(meshes=on.meshes))
+    rows = len(on.model.contacts.contact)
+    offset = replace(on.model, contacts=replace(on.model.contacts, clearance=np.full(rows, -1.0)))
+    assert _uncleared(offset, on.meshes).contacts.clearance == pytest.approx(np.full(rows, -1.0))
+    mesh = replacement(on, HOW, now, "bar")
+    assert mesh is not None
+    assert _uncleared(offset, on.on({"bar": mesh}, now).meshes).contacts.clearance is None
