@@ -62,7 +62,7 @@ def moved_on(before: HeavySolid, after: HeavySolid, displacement: Array, field: 
 def balanced_on(
     before: HeavySolid, after: HeavySolid, displacement: Array, velocities: tuple[Array, Array], kinetic: float
 ) -> Array:
-    """Velocity (m, d) on the new mesh with the momentum and spin before and, where a scalar allows it, a kinetic energy.
+    """Velocity (m, d) on the new mesh with the momentum and spin before, and where a scalar allows it a kinetic energy.
 
     Parameters
     ----------

@@ -115,8 +115,8 @@ class Remesh:
 
         Examples
         --------
-        >>> Remesh().improves((0.27, 20.0, 5.0), (0.2, 18.0, 5.0)), Remesh().improves((0.22, 20.0, 5.0), (0.2, 19.0, 5.0))
-        (True, False)
+        >>> [Remesh().improves(new, (0.2, 19.0, 5.0)) for new in ((0.27, 20.0, 5.0), (0.21, 20.0, 5.0))]
+        [True, False]
         """
         if STANDARD.within(now):
             return not worse(new, now)

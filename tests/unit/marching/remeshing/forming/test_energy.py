@@ -32,9 +32,8 @@ def thrown(material: Material | None, how: Remesh | None) -> sw.Scene:
     return replace(scene, bodies={**scene.bodies, "bar": new})
 
 
-@pytest.mark.parametrize("material", [None, FAST], ids=["plastic", "relaxing"])
-def test_new_meshes_take_no_energy(material: Material | None) -> None:
-    steps = list(sw.march(thrown(material, HOW), until=10 * STEP, step=STEP, method=taylor.METHOD))
+def test_new_meshes_take_no_energy() -> None:
+    steps = list(sw.march(thrown(None, HOW), until=10 * STEP, step=STEP, method=taylor.METHOD))
     assert sum(bool(one.exchanges) for one in steps) >= 1
     assert abs(steps[-1].ledger.remeshing) < 1e-12 * ENERGY
     assert max(abs(one.ledger.energy_error) for one in steps) < 1e-8 * ENERGY
@@ -72,7 +71,7 @@ def test_good_cells_are_not_replaced_because_slabs_are_short() -> None:
 
 def test_a_body_whose_surface_crosses_itself() -> None:
     """The error names the solid, and a contact that keeps its sides apart."""
-    (step,) = sw.march(thrown(None, HOW), until=STEP, step=STEP, method=taylor.METHOD)
+    *_, step = sw.march(thrown(None, HOW), until=STEP, step=STEP, method=taylor.METHOD)
     on, now = formed_scene(step.model), step.march_state
     mesh, u = on.part("bar").mesh, np.array(now.state.start.displacement)
     assert on.crossing(now, "bar") is None
@@ -89,10 +88,10 @@ def test_a_body_whose_surface_crosses_itself() -> None:
 
 
 def test_gaps_of_other_shapes_are_no_offsets() -> None:
-    """Curved facets that overlap at the start have gaps with an offset; those of a new mesh are of the present shape."""
+    """Curved facets that overlap at the start have gaps with an offset; those of a new mesh have none."""
     scene = thrown(None, HOW)
     on = formed_scene(sw.build(scene))
-    (step,) = sw.march(thrown(None, None), until=STEP, step=STEP, method=taylor.METHOD)
+    *_, step = sw.march(thrown(None, None), until=STEP, step=STEP, method=taylor.METHOD)
     now = replace(step.march_state, remeshed=RemeshedMeshes(meshes=on.meshes))
     rows = len(on.model.contacts.contact)
     offset = replace(on.model, contacts=replace(on.model.contacts, clearance=np.full(rows, -1.0)))
