@@ -12,6 +12,9 @@ from softway.meshes.mesh import Mesh
 KINK = 30.0
 """Turn of the boundary at a node above which the node is a corner [degrees]."""
 
+ENDS = 1e-6
+"""Part of a side at its ends where it does not count as crossing others: neighbours meet there."""
+
 
 def rims(mesh: Mesh) -> list[IntArray]:
     """Closed polygons (k,) of the boundary nodes of a mesh in the plane, with the cells to the left, middles of edges
@@ -47,6 +50,27 @@ def rims(mesh: Mesh) -> list[IntArray]:
                 break
         found.append(np.array(ring))
     return found
+
+
+def crossing(polygons: Sequence[Array]) -> Array | None:
+    """Place (2,) where sides of closed polygons (k, 2) cross, the first one in their order; None if none do.
+
+    Examples
+    --------
+    >>> crossing([np.array([[0.0, 0.0], [2.0, 0.0], [0.0, 2.0], [2.0, 2.0]])]).tolist()
+    [1.0, 1.0]
+    >>> crossing([np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0]])])
+    """
+    start = np.concatenate(polygons)
+    along = np.concatenate([np.roll(one, -1, axis=0) for one in polygons]) - start
+    cross = along[:, None, 0] * along[None, :, 1] - along[:, None, 1] * along[None, :, 0]
+    way = start[None] - start[:, None]
+    level = np.where(cross == 0.0, np.inf, cross)
+    share = (way[..., 0] * along[None, :, 1] - way[..., 1] * along[None, :, 0]) / level
+    other = (way[..., 0] * along[:, None, 1] - way[..., 1] * along[:, None, 0]) / level
+    inner = (np.minimum(share, other) > ENDS) & (np.maximum(share, other) < 1.0 - ENDS)
+    found = np.argwhere((cross != 0.0) & inner)
+    return None if not len(found) else np.asarray(start[found[0, 0]] + share[tuple(found[0])] * along[found[0, 0]])
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

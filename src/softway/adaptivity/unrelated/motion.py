@@ -51,18 +51,33 @@ class HeavySolid:
         return np.asarray(moved + self.part.dofs.supported(velocity - moved))
 
 
-def moved_on(before: HeavySolid, after: HeavySolid, displacement: Array, field: Array, closes: bool) -> Array:
-    """Velocity or acceleration (m, d) on the new mesh from that (n, d) on the old one; if it ``closes``, with the
-    momentum, spin and kinetic energy before.
-    """
+def moved_on(before: HeavySolid, after: HeavySolid, displacement: Array, field: Array) -> Array:
+    """Velocity or acceleration (m, d) on the new mesh: the projection of that (n, d) on the old one."""
     if not field.any():
         return np.zeros(after.points.shape)
-    heavy, places = before.mass.nnz > 0, before.points + displacement
-    given = before.following(field) if heavy else field
-    found = projected(before.part, places, after.part, given)
-    if not (heavy and closes):
+    given = before.following(field) if before.mass.nnz > 0 else field
+    return projected(before.part, before.points + displacement, after.part, given)
+
+
+def balanced_on(
+    before: HeavySolid, after: HeavySolid, displacement: Array, velocities: tuple[Array, Array], kinetic: float
+) -> Array:
+    """Velocity (m, d) on the new mesh with the momentum and spin before, and where a scalar allows it a kinetic energy.
+
+    Parameters
+    ----------
+    before, after
+        The solid on both meshes.
+    displacement
+        (n, d) displacement on the old mesh [m].
+    velocities
+        (n, d) velocity on the old mesh, and (m, d) its projection [m/s].
+    kinetic
+        Kinetic energy to have [J].
+    """
+    old, found = velocities
+    if before.mass.nnz == 0 or not old.any():
         return found
-    rigid = rigid_motions_of(before, after, (places, after.points))
-    momenta = rigid.before.T @ (before.mass @ field).ravel()
-    near, kinetic = after.following(found), before.kinetic(field)
-    return after.following(balanced(after, rigid.after, near, momenta, kinetic, MOST)[0])
+    rigid = rigid_motions_of(before, after, (before.points + displacement, after.points))
+    momenta = rigid.before.T @ (before.mass @ old).ravel()
+    return after.following(balanced(after, rigid.after, after.following(found), momenta, kinetic, MOST)[0])

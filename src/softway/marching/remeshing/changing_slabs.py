@@ -48,7 +48,7 @@ def changing_slabs(
     change: Callable[[On, MarchState], Change[On] | None],
     cancel: Cancel | None,
     trying: TryWatch | None,
-    rescue: Callable[[On, MarchState, bool], Change[On] | None] | None = None,
+    rescue: Callable[[On, MarchState, bool, NumericsError], Change[On] | None] | None = None,
 ) -> Iterator[Step]:
     """Accepted slabs of a march whose meshes change between them.
 
@@ -63,7 +63,7 @@ def changing_slabs(
         As for :func:`~softway.marching.start.preparation.prepare`.
     rescue
         Change before another try of a slab that failed at every length, from the state before the slab; True if it
-        failed on new meshes.  None where the march ends with the failure.
+        failed on new meshes, and how.  None where the march ends with the failure.
 
     Raises
     ------
@@ -78,7 +78,7 @@ def changing_slabs(
         try:
             step = next(there.steps)
         except NumericsError as failure:
-            found = None if rescue is None else rescue(here.on, now, there.on is not here.on)
+            found = None if rescue is None else rescue(here.on, now, there.on is not here.on, failure)
             if found is None:
                 raise
             log.info("slab at t = %.6g s tried again on other meshes: %s", now.state.time, failure.what)

@@ -8,6 +8,8 @@ from softway.units import Pure
 
 WORSE = 0.8
 """Quality, relative to that of the last new mesh, below which a measure that the mesh cannot reach counts again."""
+GAIN = 0.1
+"""Part by which a measure of new cells is better than that of bad ones."""
 Way = Literal["auto", "rezone", "new cells"]
 """How a mesh is replaced."""
 Generator = Literal["own", "mmg"]
@@ -105,6 +107,22 @@ class Remesh:
         jacobian, angle, ratio = quality
         return jacobian >= self.quality and angle >= self.angle and ratio <= self.ratio
 
+    def improves(self, new: Quality, now: Quality) -> bool:
+        """Whether a new mesh is worth its change.
+
+        Where the present cells are bad, beyond the standard limits, the new ones are within the limits, or a measure
+        is a tenth better and none a fifth worse.  Where they are good no measure of the new ones is a fifth worse.
+
+        Examples
+        --------
+        >>> [Remesh().improves(new, (0.2, 19.0, 5.0)) for new in ((0.27, 20.0, 5.0), (0.21, 20.0, 5.0))]
+        [True, False]
+        """
+        if STANDARD.within(now):
+            return not worse(new, now)
+        better = any(a > b + GAIN * abs(b) for a, b in zip(new[:2], now[:2], strict=True))
+        return self.within(new) or (better and not worse(new, now))
+
 
 def worse(now: Quality, last: Quality) -> bool:
     """Whether a measure is a fifth worse than it was.
@@ -118,6 +136,8 @@ def worse(now: Quality, last: Quality) -> bool:
     return lower or now[2] > last[2] / WORSE
 
 
+STANDARD = Remesh()
+"""Standard limits."""
 Remeshing = Remesh | Literal["auto"] | None
 """Replacement of the mesh of a solid; ``auto`` is that of ``Remesh()``, None that of a mesh that stays."""
 

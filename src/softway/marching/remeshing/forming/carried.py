@@ -10,12 +10,12 @@ from softway.adaptivity.rezoning.quality import cell_quality
 from softway.adaptivity.rezoning.volume import volume_of
 from softway.adaptivity.unrelated.fields import interpolation
 from softway.adaptivity.unrelated.memory import recast, recast_state
-from softway.adaptivity.unrelated.motion import HeavySolid, moved_on
+from softway.adaptivity.unrelated.motion import moved_on
 from softway.arrays import Array
-from softway.bodies.assembled.material_states import committed
-from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce
+from softway.marching.remeshing.carried.settling import Unsettled
 from softway.marching.remeshing.carried.surface_forces import SurfaceForces, surface_forces
+from softway.marching.remeshing.forming.closing import closed, dissipated, heavy
 from softway.marching.remeshing.forming.formed_scene import FormedScene
 from softway.marching.results.exchange import Exchange
 from softway.marching.state.march_state import MarchState
@@ -23,14 +23,9 @@ from softway.marching.state.model_state import ModelState, join_states, split_st
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.solve.operators.operator_memory import OperatorMemory
-from softway.solve.static_equilibrium import StaticState, equilibrium
 
 CLOSED = 1e-10
 """Gap, relative to the extent of the scene, up to which a contact row starts closed."""
-ROUNDS = 40
-"""Greatest number of equilibria in search of the friction."""
-EXACT = 1e-11
-"""Change of the friction, relative to the greatest, below which it is found."""
 
 
 def carried_on(
@@ -39,7 +34,7 @@ def carried_on(
     """State of a march on the new meshes of some solids, and what they have changed.
 
     Memory passes by means over the overlap of the cells, velocities by projection; contact rows are found afresh, with
-    forces that balance the stress.
+    forces that balance the stress.  The balances are closed in this equilibrium.
     """
     state = split_states(old.model, now.state)
     memories, displacement = dict(state.memory), dict(state.displacement)
@@ -51,9 +46,8 @@ def carried_on(
         cast = recast(before, u, after)
         memories[name] = recast_state(cast, state.memory[name], np.asarray(before.internal.sampling.volume))
         displacement[name] = np.zeros((after.mesh.n_nodes, after.mesh.dim))
-        pair = _heavy(old.model, before), _heavy(new.model, after)
-        velocity[name] = moved_on(*pair, u, velocity[name], True)
-        acceleration[name] = moved_on(*pair, u, acceleration[name], False)
+        pair = heavy(old.model, before), heavy(new.model, after)
+        velocity[name], acceleration[name] = (moved_on(*pair, u, field[name]) for field in (velocity, acceleration))
     state = replace(state, displacement=displacement, memory=memories, velocity=velocity, acceleration=acceleration)
     surface = _surface(old, new, now.state, reasons)
     settles = bool(new.model.inert and not new.model.space.every(new.model.massive))
@@ -61,22 +55,20 @@ def carried_on(
         joined = _settled(new.model, state, surface, now.step_history.span)
     else:
         joined = _in_contact(old.model, new.model, now.state, state, surface)
+    lost = dissipated(new.model, joined) - dissipated(old.model, now.state)
+    joined, taken = closed(old, new, now.state, joined, lost, list(reasons))
     numbers = {p.name: k for k, p in enumerate(new.model.parts)}
-    energies = [m.kinetic(s.start.velocity) + s.start.energy for m, s in ((old.model, now.state), (new.model, joined))]
-    taken = energies[0] - energies[1]
     exchanges = {n: _exchange(old, new, now, n, reason, float(taken[numbers[n]])) for n, reason in reasons.items()}
-    account = replace(now.account, remeshing=now.account.remeshing + float(taken.sum()))
+    account = replace(
+        now.account,
+        remeshing=now.account.remeshing + float(taken.sum()),
+        dissipation=now.account.dissipation + float(lost.sum()),
+    )
     assert now.remeshed is not None
     failed = {name: quality for name, quality in now.remeshed.failed.items() if name not in reasons}
     remeshed = replace(now.remeshed, meshes=new.meshes, changed=now.slabs, failed=failed)
     memory = OperatorMemory(room=now.memory.room)
     return replace(now, state=joined, account=account, memory=memory, remeshed=remeshed), exchanges
-
-
-def _heavy(model: Model, part: DiscreteSolid) -> HeavySolid:
-    """A solid with its inertia in a model."""
-    mass, follow = (matrix[part.nodes][:, part.nodes] for matrix in (model.mass, model.follow))
-    return HeavySolid(part=part, mass=mass, follow=follow)
 
 
 def _surface(old: FormedScene, new: FormedScene, now: ModelState, changed: Collection[str]) -> SurfaceForces | None:
@@ -126,9 +118,16 @@ def _in_contact(
 
 def _settled(model: Model, state: State, surface: SurfaceForces | None, span: float) -> ModelState:
     """State with massless nodes in equilibrium with the contacts and the friction of the places, the others fixed."""
-    there = model.during(tuple(state.memory.get(p.name) for p in model.parts), span)
-    rest = _rest(there, model.join(state.displacement), surface, state.time)
-    reached, by = committed(there.parts, rest.displacement), _slices(model)
+    unsettled = Unsettled(
+        model=model,
+        displacement=model.join(state.displacement),
+        states=tuple(state.memory.get(p.name) for p in model.parts),
+        friction=surface,
+        kept=None,
+        time=state.time,
+        span=span,
+    )
+    (rest, reached), by = unsettled.settled(), _slices(model)
     slip = None if surface is None else surface.slips(model.rows(rest.displacement, state.time))
     return join_states(
         model,
@@ -143,25 +142,6 @@ def _settled(model: Model, state: State, surface: SurfaceForces | None, span: fl
             slip={} if slip is None else {label: slip[mine] for label, mine in by},
         ),
     )
-
-
-def _rest(model: Model, u: Array, surface: SurfaceForces | None, time: float) -> StaticState:
-    """Equilibrium of the massless nodes from the displacement u (n, d), with the friction of the places under the
-    pressure there.
-    """
-    dofs, load = model.dofs.only(~model.massive), model.loads.at(time)
-    if surface is None or not dofs.size:
-        return equilibrium(model, u, dofs, load, time)
-    rows, friction = model.rows(u, time), model.friction.at(u)
-    traction, sliding = surface.first(rows, friction), np.zeros(len(rows.node), bool)
-    for _ in range(ROUNDS):
-        rest = equilibrium(model, u, dofs, load + rows.shear.spread(traction), time)
-        u, last = rest.displacement, traction
-        rows, friction = model.rows(u, time), model.friction.at(u)
-        traction, sliding = surface.forces(rows, friction, rest.pressure)
-        if model.space.greatest(traction - last) <= EXACT * model.space.greatest(traction):
-            break
-    return replace(rest, traction=traction, sliding=sliding)
 
 
 def _balanced(model: Model, force: Array, contact: Array, time: float) -> Array:

@@ -7,6 +7,7 @@ import numpy as np
 
 from softway.adaptivity.new_cells.sizes import edge_lengths
 from softway.adaptivity.rezoning.quality import cell_quality
+from softway.adaptivity.rezoning.rim import crossing, rims
 from softway.adaptivity.unrelated.fields import interpolation
 from softway.arrays import Array, BoolArray
 from softway.bodies.discretised import DiscreteSolid, discretise
@@ -89,6 +90,11 @@ class FormedScene:
         """Present quality of the worst cells of a solid."""
         return cell_quality(self.part(name).mesh.blocks, self.places(now, name)).worst
 
+    def crossing(self, now: MarchState, name: str) -> Array | None:
+        """Place (2,) where the boundary of a solid in the plane crosses itself; None where it does not."""
+        mesh, places = self.part(name).mesh, self.places(now, name)
+        return crossing([places[rim] for rim in rims(mesh)]) if mesh.dim == 2 else None
+
     def asks(self, now: MarchState) -> dict[str, str]:
         """Solids that ask for another mesh, and the measure by which they do.
 
@@ -98,7 +104,8 @@ class FormedScene:
         since = now.slabs - (0 if stored is None else stored.changed)
         for name, how in replacements(self.scene).items():
             quality = self.quality(now, name)
-            short = history.rejected > 0 and now.state.span < how.shortened * history.span
+            crawls = history.rejected > 0 and now.state.span < how.shortened * history.span
+            short = crawls and worse(quality, self.new[name])
             reason = how.asks(quality, self.new[name]) or (f"slab of {now.state.span:.3g} s" if short else "")
             failed = None if stored is None else stored.failed.get(name)
             if reason and since >= how.every and (failed is None or worse(quality, failed)):
@@ -134,7 +141,7 @@ class FormedScene:
     def _with(self, meshes: Mapping[str, RemeshedMesh], changed: Mapping[str, RemeshedMesh]) -> "FormedScene":
         """The scene on meshes, of which some have changed."""
         solids = {name: _still(self.scene, name, mesh.mesh, mesh.density) for name, mesh in changed.items()}
-        model = build(replace(self.scene, bodies={**self.scene.bodies, **solids}), self.model)
+        model = _uncleared(build(replace(self.scene, bodies={**self.scene.bodies, **solids}), self.model), meshes)
         new = {**self.new, **{name: _quality(mesh.mesh) for name, mesh in changed.items()}}
         return FormedScene(model=replace(model, remeshed=meshes, declared=self.model.declared), new=new)
 
@@ -200,6 +207,20 @@ def formed_scene(model: Model) -> FormedScene:
             bodies[name] = replace(_solid(model.scene, name), mesh=mesh.mesh, place=Placement(), group=())
         model = replace(model, scene=replace(model.scene, bodies=bodies), remeshed=meshes)
     return FormedScene(model=model, new={name: _quality(mesh.mesh) for name, mesh in meshes.items()})
+
+
+def _uncleared(model: Model, meshes: Mapping[str, RemeshedMesh]) -> Model:
+    """The model without offsets of gaps at solids whose meshes have been replaced: those are of the shape at the start.
+
+    ``build`` finds them from the references of the solids, which no longer belong to the same time.
+    """
+    found = model.contacts.clearance
+    if found is None:
+        return model
+    new = {name for name, one in meshes.items() if not np.array_equal(one.mesh.points, one.first.points)}
+    old = [not any(model.parts[k].name in new for k in solids) for solids in model.contact_solids]
+    kept = np.where(np.array(old)[model.contacts.contact], found, 0.0)
+    return replace(model, contacts=replace(model.contacts, clearance=kept if kept.any() else None))
 
 
 def _quality(mesh: Mesh) -> Quality:

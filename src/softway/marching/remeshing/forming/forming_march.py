@@ -69,14 +69,28 @@ def _change(on: FormedScene, now: MarchState) -> Change[FormedScene] | None:
     return _failing(change, on, now, stay)
 
 
-def _rescue(on: FormedScene, now: MarchState, tried: bool) -> Change[FormedScene] | None:
+def _rescue(on: FormedScene, now: MarchState, tried: bool, failure: NumericsError) -> Change[FormedScene] | None:
     """Change before another try of a slab that failed at every length: new meshes of the solids whose cells are a
     fifth worse than new ones, or back to the old ones if the slab has failed on new meshes; None if there is none.
 
-    A march is rescued once within a slab of the requested length, so that it ends.
+    Raises
+    ------
+    NumericsError
+        The failure, with the solid whose surface crosses itself.
     """
     if tried:
         return _failing(Change(on=on, now=now), on, now, list(on.asks(now)))
+    change = _rescued(on, now)
+    if change is None:
+        _blame(on, now, failure)
+    return change
+
+
+def _rescued(on: FormedScene, now: MarchState) -> Change[FormedScene] | None:
+    """Change to new meshes of the solids whose cells are a fifth worse than new ones; None where there are none.
+
+    A march is rescued once within a slab of the requested length, so that it ends.
+    """
     assert now.remeshed is not None
     last, span = now.remeshed.rescued, now.step_history.span
     if last is not None and now.state.time < last + span:
@@ -89,6 +103,15 @@ def _rescue(on: FormedScene, now: MarchState, tried: bool) -> Change[FormedScene
     begun = StepHistory(span=span, length=span, fastest=now.step_history.fastest)
     remeshed = replace(change.now.remeshed, rescued=now.state.time)
     return replace(change, now=replace(change.now, step_history=begun, remeshed=remeshed))
+
+
+def _blame(on: FormedScene, now: MarchState, failure: NumericsError) -> None:
+    """Raise a failure with the name of a solid whose surface crosses itself: no mesh has such a shape."""
+    for name in replacements(on.scene):
+        if (place := on.crossing(now, name)) is not None:
+            told = f"the surface of {name!r} crosses itself at ({', '.join(f'{x:.4g}' for x in place)}) m"
+            remedy = f'a contact between = ["{name}", "{name}"], which keeps its sides apart'
+            raise NumericsError(f"{failure.what}; {told}", failure.when, remedy) from failure
 
 
 def _failing(change: Change[FormedScene], on: FormedScene, now: MarchState, stay: list[str]) -> Change[FormedScene]:
@@ -104,7 +127,8 @@ def _replaced(on: FormedScene, now: MarchState, reasons: Mapping[str, str]) -> C
     for name in reasons:
         found = replacement(on, hows[name], now, name)
         if found is None:
-            log.info("no new mesh of %r at t = %.6g s fits", name, now.state.time)
+            crossed = "" if on.crossing(now, name) is None else ": its surface crosses itself"
+            log.info("no new mesh of %r at t = %.6g s fits%s", name, now.state.time, crossed)
         else:
             meshes[name] = found
     return _changed(on, now, meshes, {name: reasons[name] for name in meshes}) if meshes else None

@@ -10,7 +10,7 @@ from softway.adaptivity.new_cells.filling import filled
 from softway.adaptivity.new_cells.mmg import mmg_tetrahedra, mmg_triangles
 from softway.adaptivity.new_cells.plane_mesh import NewMesh, moved_mesh, plane_mesh
 from softway.adaptivity.new_cells.space_mesh import improved_tetrahedra, space_mesh
-from softway.adaptivity.rezoning.quality import CellQuality, cell_quality
+from softway.adaptivity.rezoning.quality import cell_quality
 from softway.adaptivity.rezoning.rezone import rezoned
 from softway.adaptivity.rezoning.volume import volume_of, with_volume
 from softway.adaptivity.unrelated.fields import simplices
@@ -29,15 +29,18 @@ DIVISIONS = 3
 
 
 def replacement(on: FormedScene, how: Remesh, now: MarchState, name: str) -> Replacement | None:
-    """New mesh of a solid; None if no cells fit into its shape.
+    """New mesh of a solid; None if none that fits into its shape is better.
 
     With ``auto`` a rezoned mesh if it is within the limits, otherwise new cells, and without those the rezoned mesh.
     """
-    makes = makes_cells(how, on.part(name).mesh, _solid(on, name))
+    makes, present = makes_cells(how, on.part(name).mesh, _solid(on, name)), on.quality(now, name)
     same = None if makes and how.by == "new cells" else _rezoned(on, now, name)
-    if same is not None and (not makes or how.within(cell_quality(same.mesh.blocks, same.mesh.points).worst)):
-        return same
-    return (_with_new_cells(on, how, now, name) or same) if makes else None
+    found = None if same is None else cell_quality(same.mesh.blocks, same.mesh.points).worst
+    if found is None or not how.improves(found, present):
+        same = None
+    if makes and not (same is not None and found is not None and how.within(found)):
+        return _with_new_cells(on, how, now, name) or same
+    return same
 
 
 def _walled(model: Model, name: str, mesh: Mesh) -> bool:
@@ -71,7 +74,7 @@ def _with_new_cells(on: FormedScene, how: Remesh, now: MarchState, name: str) ->
     Walls one cell thick get a node inside; the boundary on the tools may have others.
     """
     closed, kept = on.touching(now, name)
-    old, places = on.part(name).mesh, on.places(now, name)
+    present = on.quality(now, name)
     new = _made(on, how, now, name, closed, kept)
     for _ in range(DIVISIONS):
         if new is None:
@@ -79,7 +82,7 @@ def _with_new_cells(on: FormedScene, how: Remesh, now: MarchState, name: str) ->
         trial = on.trial(name, Replacement(mesh=new.mesh, sizes=new.sizes))
         new = new.divided(next(p for p in trial.parts if p.name == name).mesh)
         mesh = _on_boundary(on, trial, now, name, new)
-        if mesh is None or not _better(cell_quality(mesh.blocks, mesh.points), cell_quality(old.blocks, places), how):
+        if mesh is None or not how.improves(cell_quality(mesh.blocks, mesh.points).worst, present):
             return None
         if not _walled(trial, name, mesh):
             return Replacement(mesh=mesh, sizes=new.sizes)
@@ -97,11 +100,6 @@ def _on_boundary(on: FormedScene, trial: Model, now: MarchState, name: str, new:
     section = part.internal.section
     wanted = volume_of(on.part(name).mesh.blocks, section, on.places(now, name))
     return new.with_boundary(with_volume(new.mesh.blocks, new.mesh.boundary(), section, points, wanted, free))
-
-
-def _better(new: CellQuality, old: CellQuality, how: Remesh) -> bool:
-    """Whether cells are within the limits, or better than others."""
-    return how.within(new.worst) or new.worst[0] > old.worst[0] or new.worst[1] > old.worst[1]
 
 
 def space_of(blocks: Mapping[str, IntArray], places: Array) -> float:

@@ -75,12 +75,12 @@ def force(one: sw.Step) -> float:
 
 
 def test_momentum_and_energy_of_a_thrown_bar() -> None:
-    """Momentum and energy of the change itself pass to rounding but for the equilibrium of the massless nodes."""
+    """Momentum and energy pass to rounding, with what the equilibrium of the massless nodes releases."""
     steps = thrown((5, 25), 227.0, 8e-6, Remesh(by="new cells"))
     (at,) = [k for k, one in enumerate(steps) if one.exchanges]
     whole = 0.5 * taylor.DENSITY * np.pi * taylor.RADIUS**2 * taylor.LENGTH * 227.0**2
     assert abs(steps[at].exchanges["bar"].volume) < 1e-14
-    assert abs(steps[at].exchanges["bar"].energy) < 5e-4 * whole
+    assert abs(steps[at].exchanges["bar"].energy) < 1e-12 * whole
     assert max(abs(one.ledger.energy_error) for one in steps) < 1e-8 * whole
     before, after = steps[at - 1], steps[at]
     momenta = [
@@ -103,7 +103,7 @@ def test_bar_of_case_d09_with_new_cells() -> None:
     mesh = steps[-1].model.parts[0].mesh
     assert cell_quality(mesh.blocks, x).worst[0] > 0.2
     whole = 0.5 * taylor.DENSITY * np.pi * taylor.RADIUS**2 * taylor.LENGTH * 227.0**2
-    assert abs(steps[-1].ledger.remeshing) < 1e-3 * whole
+    assert abs(steps[-1].ledger.remeshing) < 1e-11 * whole
 
 
 @pytest.mark.parametrize("cell", ["tri3", pytest.param("tri6", marks=pytest.mark.slow)])
