@@ -16,7 +16,9 @@ from softway.bodies.assembled.material_states import committed
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce
 from softway.marching.remeshing.carried.surface_forces import SurfaceForces, surface_forces
+from softway.marching.remeshing.carried_heat import account_of_heat, heat_of, with_digits
 from softway.marching.remeshing.forming.formed_scene import FormedScene
+from softway.marching.remeshing.forming.heat import heat_on, warmed_state
 from softway.marching.results.exchange import Exchange
 from softway.marching.state.march_state import MarchState
 from softway.marching.state.model_state import ModelState, join_states, split_states
@@ -55,17 +57,22 @@ def carried_on(
         velocity[name] = moved_on(*pair, u, velocity[name], True)
         acceleration[name] = moved_on(*pair, u, acceleration[name], False)
     state = replace(state, displacement=displacement, memory=memories, velocity=velocity, acceleration=acceleration)
+    warmth = heat_on((old.model, new.model), now.state, reasons)
+    state = warmed_state(new.model, state, warmth, reasons)
     surface = _surface(old, new, now.state, reasons)
     settles = bool(new.model.inert and not new.model.space.every(new.model.massive))
     if settles:
         joined = _settled(new.model, state, surface, now.step_history.span)
     else:
         joined = _in_contact(old.model, new.model, now.state, state, surface)
+    joined = with_digits(new.model, joined, warmth)
+    heats = heat_of(old.model, now.state), heat_of(new.model, joined)
     numbers = {p.name: k for k, p in enumerate(new.model.parts)}
     energies = [m.kinetic(s.start.velocity) + s.start.energy for m, s in ((old.model, now.state), (new.model, joined))]
     taken = energies[0] - energies[1]
     exchanges = {n: _exchange(old, new, now, n, reason, float(taken[numbers[n]])) for n, reason in reasons.items()}
-    account = replace(now.account, remeshing=now.account.remeshing + float(taken.sum()))
+    heat = account_of_heat(now.account.heat, *heats, 0.0)
+    account = replace(now.account, remeshing=now.account.remeshing + float(taken.sum()), heat=heat)
     assert now.remeshed is not None
     failed = {name: quality for name, quality in now.remeshed.failed.items() if name not in reasons}
     remeshed = replace(now.remeshed, meshes=new.meshes, changed=now.slabs, failed=failed)
