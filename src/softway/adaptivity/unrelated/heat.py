@@ -143,6 +143,15 @@ class HeatTransfer:
 
         return np.asarray(low + _greatest(falls) * change)
 
+    def mixed(self, values: Array) -> Array:
+        """Values (m,) on the new mesh after an exchange between neighbours, which has the same content and no less
+        entropy.
+        """
+        links = sp.coo_array(self.links)
+        rows, columns = links.coords
+        flux = 0.5 * links.data * (values[columns] - values[rows])
+        return np.asarray(values + np.bincount(rows, flux, len(values)) / self.capacity)
+
     def _room(self, values: Array, low: Array) -> tuple[Array, Array]:
         """Capacities (m,) times the distances of the values ``low`` from the greatest and the least one around."""
         around = values[self.around.indices]
@@ -173,7 +182,7 @@ def heat_transfer(old: Sampled, new: Sampled, before: Array, after: Array) -> He
     own = after / np.asarray(links.sum(axis=1))
     links = sp.coo_array(links)
     row, column = links.coords
-    links.data *= np.sqrt(own[row] * own[column])
+    links.data *= np.minimum(own[row], own[column])
     around = sp.csr_array(abs(sp.csr_array(kernel.T)) + near)
     around.eliminate_zeros()
     return HeatTransfer(plan=plan, capacity=after, near=near, around=around, links=sp.csr_array(links))

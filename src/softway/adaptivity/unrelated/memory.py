@@ -64,7 +64,7 @@ class Recast:
         return np.asarray(cast + (total - float(self.after @ cast)) / float(self.after.sum()))
 
     def _cast(self, values: Array) -> Array:
-        count, flat = len(self.old.corners), values.reshape(len(values), -1)
+        count, flat = len(self.old.whole), values.reshape(len(values), -1)
         means = np.zeros((count, flat.shape[1]))
         np.add.at(means, self.old.point, self.before[:, None] * flat)
         means /= np.bincount(self.old.point, self.before, minlength=count)[:, None]
