@@ -179,13 +179,11 @@ def heat_transfer(old: Sampled, new: Sampled, before: Array, after: Array) -> He
     kernel = sum(_products(one, other, weights) for one, other, weights in pairs)
     links = sum(_products(other, other, weights) for _, other, weights in pairs)
     plan, near = transport_plan(kernel, before * scale, after), old.at(new.places)
-    own = after / np.asarray(links.sum(axis=1))
-    links = sp.coo_array(links)
-    row, column = links.coords
-    links.data *= np.minimum(own[row], own[column])
+    own = transport_plan(sp.csr_array(links), after, after).amounts
     around = sp.csr_array(abs(sp.csr_array(kernel.T)) + near)
     around.eliminate_zeros()
-    return HeatTransfer(plan=plan, capacity=after, near=near, around=around, links=sp.csr_array(links))
+    return HeatTransfer(plan=plan, capacity=after, near=near, around=around,
+                        links=sp.csr_array(0.5 * (own + own.T)))  # fmt: skip
 
 
 def _products(one: sp.csr_array, other: sp.csr_array, weights: Array) -> sp.csr_array:

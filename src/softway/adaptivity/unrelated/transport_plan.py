@@ -70,22 +70,18 @@ def transport_plan(kernel: sp.csr_array, rows: Array, columns: Array) -> Transpo
     """
     kernel = sp.csr_array(kernel)
     back = sp.csr_array(kernel.T)
-    few, many = rows / np.asarray(kernel.sum(axis=1)), np.ones(len(columns))
+    few, parts = rows / np.asarray(kernel.sum(axis=1)), _parts(kernel)
     for _ in range(ROUNDS):
-        many = columns / (back @ few)
-        few = rows / (kernel @ many)
-    parts = _parts(kernel)
+        few = rows / (kernel @ (columns / (back @ few)))
+    amounts = _scaled(kernel, few, columns / (back @ few))
     for _ in range(STEPS):
-        amounts = _scaled(kernel, few, many)
-        given, taken = rows - amounts.sum(axis=1), columns - amounts.sum(axis=0)
-        if (np.abs(given) <= EVEN * rows).all() and (np.abs(taken) <= EVEN * columns).all():
+        change = _newton(amounts, rows, columns, parts)
+        if not change.any():
             break
-        change = _newton(amounts, given, taken, parts)
-        part = 1.0 / max(1.0, *(float(np.abs(one).max()) for one in change))
-        few, many = few * np.exp(part * change[0]), many * np.exp(part * change[1])
-    amounts = _scaled(kernel, few, many)
-    amounts = _scaled(amounts, np.minimum(1.0, rows / amounts.sum(axis=1)), np.ones_like(many))
-    amounts = _scaled(amounts, np.ones_like(few), np.minimum(1.0, columns / amounts.sum(axis=0)))
+        few = few * np.exp(change / max(1.0, float(np.abs(change).max())))
+        amounts = _scaled(kernel, few, columns / (back @ few))
+    amounts = _scaled(amounts, np.minimum(1.0, rows / amounts.sum(axis=1)), np.ones_like(columns))
+    amounts = _scaled(amounts, np.ones_like(rows), np.minimum(1.0, columns / amounts.sum(axis=0)))
     given = np.maximum(rows - amounts.sum(axis=1), 0.0)
     taken = np.maximum(columns - amounts.sum(axis=0), 0.0)
     return TransportPlan(amounts=amounts, given=given, taken=taken)
@@ -97,21 +93,22 @@ def _parts(kernel: sp.csr_array) -> IntArray:
     return np.asarray(connected_components(both, directed=False)[1][: kernel.shape[0]])
 
 
-def _newton(amounts: sp.csr_array, given: Array, taken: Array, parts: IntArray) -> tuple[Array, Array]:
-    """Changes (n,) and (m,) of the logarithms of the factors, from what the sums of the ``amounts`` lack.
+def _newton(amounts: sp.csr_array, rows: Array, columns: Array, parts: IntArray) -> Array:
+    """Changes (n,) of the logarithms of the factors of the rows, where those of the columns follow; zero if the sums are
+    there.
 
-    A part whose rows and columns ask for different sums gets what its rows ask for.
+    A part whose rows and columns ask for different sums gets what its columns ask for.
     """
-    back = sp.csr_array(amounts.T)
-    rows, columns = amounts.sum(axis=1), amounts.sum(axis=0)
-    right = given - amounts @ (taken / columns)
-    right = right - rows * (np.bincount(parts, right) / np.bincount(parts, rows))[parts]
+    back, sums = sp.csr_array(amounts.T), amounts.sum(axis=1)
+    missing = rows - sums
+    missing = missing - sums * (np.bincount(parts, missing) / np.bincount(parts, sums))[parts]
+    if (np.abs(missing) <= EVEN * rows).all():
+        return np.zeros_like(rows)
 
     def times(x: Array) -> Array:
-        return np.asarray(rows * x - amounts @ ((back @ x) / columns))
+        return np.asarray(sums * x - amounts @ ((back @ x) / columns))
 
-    change = conjugate_gradients(times, lambda r: r / rows, right, NEAR)
-    return change, np.asarray((taken - back @ change) / columns)
+    return conjugate_gradients(times, lambda r: r / sums, missing, NEAR)
 
 
 def _scaled(matrix: sp.csr_array, rows: Array, columns: Array) -> sp.csr_array:
