@@ -39,7 +39,9 @@ def sliding(mesh: Mesh, places: Array, kept: BoolArray) -> tuple[IntArray, Array
     ways: list[Array] = []
     if all(CELLS[cell].order == 1 for cell in mesh.blocks):
         near, own = FLAT * float(np.ptp(places, axis=0).max()), _facets_of_nodes(mesh)
-        tags = np.array([np.isin(np.arange(len(places)), nodes) for tag, nodes in mesh.tags.items() if tag != "surface"])
+        tags = np.array(
+            [np.isin(np.arange(len(places)), nodes) for tag, nodes in mesh.tags.items() if tag != "surface"]
+        )
         tags = tags.reshape(-1, len(places))
         for node, facets in own.items():
             way = None if kept[node] else _way(node, facets, places, tags, near)

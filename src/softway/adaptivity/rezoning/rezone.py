@@ -30,10 +30,10 @@ def rezoned(
     """New places (n, d) of the nodes of a solid; None if no cells fit into its shape.
 
     In the plane nodes of the boundary slide on it, between its corners and the ends of supports and contacts, with the
-    spacing of the base mesh; in space those on flat parts slide in their
-    planes and along straight edges, so that the shape stays, and the others stay.  Nodes inside have the places of least distortion from the base mesh
-    in the affine motion nearest to the present one.  Free nodes of the boundary move along their normals, so that the
-    volume stays.
+    spacing of the base mesh.  In space those on flat parts slide in their planes and along straight edges, and the
+    others stay, so that the shape does.  Nodes inside have the places of least distortion from the base mesh in the
+    affine motion nearest to the present one.  Free nodes of the boundary move along their normals, so that the volume
+    stays.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
 """Control volumes of the quadrature points of a mesh: parts of the cells that fill it."""
 
 from collections.abc import Mapping
-from itertools import permutations, product
 from dataclasses import dataclass
+from itertools import permutations, product
 
 import numpy as np
 import scipy.sparse as sp

@@ -10,7 +10,7 @@ import scipy.sparse as sp
 
 from softway.adaptivity.unrelated.fields import within_simplices
 from softway.adaptivity.unrelated.transport_plan import TransportPlan, transport_plan
-from softway.arrays import Array, BoolArray, IntArray
+from softway.arrays import Array, IntArray
 from softway.bodies.elements.cut_cells import simplices_of
 from softway.bodies.elements.section import Section
 from softway.errors import InputError
@@ -46,7 +46,7 @@ class Sampled:
     values: sp.csr_array
 
     def at(self, points: Array) -> sp.csr_array:
-        """Linear functions (q, n) of the nodes at points (q, d); outside those of the nearest simplex, none negative."""
+        """Linear functions (q, n) of the nodes at points (q, d), none negative; outside of the nearest simplex."""
         return within_simplices(self.cells, self.places, points)
 
 

@@ -94,8 +94,8 @@ def _parts(kernel: sp.csr_array) -> IntArray:
 
 
 def _newton(amounts: sp.csr_array, rows: Array, columns: Array, parts: IntArray) -> Array:
-    """Changes (n,) of the logarithms of the factors of the rows, where those of the columns follow; zero if the sums are
-    there.
+    """Changes (n,) of the logarithms of the factors of the rows, where those of the columns follow; zero if all sums
+    are there.
 
     A part whose rows and columns ask for different sums gets what its columns ask for.
     """

@@ -24,6 +24,8 @@ from softway.meshes.remeshed.remesh import Remesh
 from softway.meshes.walls.wall_edges import wall_edges
 from softway.model.model import Model
 
+GAIN = 1e-3
+"""Change of the quality of the worst cells below which a rezoned mesh in space is as good as the old one."""
 DIVISIONS = 3
 """Greatest number of divisions of walls one cell thick."""
 
@@ -62,7 +64,17 @@ def _rezoned(on: FormedScene, now: MarchState, name: str) -> Replacement | None:
     moved = None if found is None else moved_mesh(part.mesh, found)
     if moved is None or _walled(on.model, name, moved):
         return None
+    if moved.dim == 3 and not _gains(moved, on.places(now, name)):
+        return None
     return Replacement(mesh=moved, sizes=mesh.sizes)
+
+
+def _gains(mesh: Mesh, places: Array) -> bool:
+    """Whether the worst cells of a mesh are better by any measure than with its nodes at the places
+    (n, d).
+    """
+    new, old = (cell_quality(mesh.blocks, x).worst for x in (mesh.points, places))
+    return new[0] > old[0] * (1.0 + GAIN) or new[1] > old[1] * (1.0 + GAIN) or new[2] < old[2] / (1.0 + GAIN)
 
 
 def _with_new_cells(on: FormedScene, how: Remesh, now: MarchState, name: str) -> Replacement | None:
