@@ -68,7 +68,7 @@ def _way(node: int, facets: list[IntArray], places: Array, tags: BoolArray, near
         x = places[facet] - places[node]
         normal = np.cross(x[2] - x[0], x[-1] - x[1])
         length = float(np.linalg.norm(normal))
-        inside = tags[:, facet].all(axis=1)
+        inside = np.asarray(tags[:, facet].all(axis=1))
         if not length or (np.abs(x @ normal) > near * length).any():
             return None
         normal = normal / length

@@ -83,7 +83,7 @@ def within_simplices(cells: IntArray, places: Array, points: Array) -> sp.csr_ar
 def _nearest(cells: IntArray, places: Array, points: Array) -> tuple[IntArray, Array]:
     """Nodes (m, d + 1) of the simplices around points (m, d), and their shares there."""
     x, count = places[cells], min(NEAR, len(cells))
-    tree, inverse = cKDTree(x.mean(axis=1)), np.linalg.inv(np.swapaxes(x[:, 1:] - x[:, :1], 1, 2))
+    tree, inverse = cKDTree(x.mean(axis=1)), np.asarray(np.linalg.inv(np.swapaxes(x[:, 1:] - x[:, :1], 1, 2)), float)
     found = [_around(tree, count, x[:, 0], inverse, part) for part in _portions(points)]
     which, shares = (np.concatenate(part) for part in zip(*found, strict=True))
     return cells[which], shares

@@ -119,7 +119,7 @@ def _joined(pairs: IntArray, moments: Array, ours: int, theirs: int) -> tuple[In
     both, number = np.unique(pairs // [ours, theirs], axis=0, return_inverse=True)
     out = np.zeros((len(both), moments.shape[1]))
     np.add.at(out, number.ravel(), moments)
-    return both, out
+    return np.asarray(both, dtype=np.int64), out
 
 
 def _moments(one: Array, other: Array, pairs: IntArray, radial: bool) -> Array:
