@@ -4,8 +4,9 @@ from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
+from softway.adaptivity.rezoning.flat_surface import sliding
 from softway.adaptivity.rezoning.rim import anchors, rims, slid
-from softway.adaptivity.rezoning.smoothing import distortion, ideal_places, moved
+from softway.adaptivity.rezoning.smoothing import distortion, ideal_places, moved, slid_along
 from softway.adaptivity.rezoning.volume import volume_of, with_volume
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.discretised import DiscreteSolid
@@ -29,9 +30,10 @@ def rezoned(
     """New places (n, d) of the nodes of a solid; None if no cells fit into its shape.
 
     In the plane nodes of the boundary slide on it, between its corners and the ends of supports and contacts, with the
-    spacing of the base mesh; in space they stay.  Nodes inside have the places of least distortion from the base mesh
-    in the affine motion nearest to the present one.  Free nodes of the boundary move along their normals, so that the
-    volume stays.
+    spacing of the base mesh.  In space those on flat parts slide in their planes and along straight edges, and the
+    others stay, so that the shape does.  Nodes inside have the places of least distortion from the base mesh in the
+    affine motion nearest to the present one.  Free nodes of the boundary move along their normals, so that the volume
+    stays.
 
     Parameters
     ----------
@@ -60,7 +62,11 @@ def rezoned(
         new = on_tools(new, closed)
         free = part.dofs.free & (np.isin(np.arange(len(places)), boundary) & ~closed & ~kept)[:, None]
         new = with_volume(mesh.blocks, mesh.boundary(), section, new, wanted, free)
-    found = moved(distortion(mesh.blocks, ideal_places(base.points, places)), places, boundary, new[boundary])
+    bent = distortion(mesh.blocks, ideal_places(base.points, places))
+    found = moved(bent, places, boundary, new[boundary])
+    if found is not None and mesh.dim == 3:
+        inside = np.setdiff1d(np.unique(bent.simplices), boundary)
+        found = slid_along(bent, found, inside, *sliding(mesh, found, kept))
     return None if found is None else between(mesh.blocks, found, boundary)
 
 

@@ -177,6 +177,32 @@ def _along(now: Array, step: Array, share: float, rim: IntArray, goal: Array) ->
     return np.asarray(out)
 
 
+def slid_along(found: Distortion, places: Array, inside: IntArray, nodes: IntArray, ways: Array) -> Array:
+    """Places (n, d) with less distortion, with the nodes (k,) moved in directions given by projections ``ways``
+    (k, d, d), and those ``inside`` (m,) in any.
+
+    Examples
+    --------
+    >>> from softway.meshes.generators.shapes import rectangle
+    >>> mesh = rectangle((2.0, 1.0), cells=(2, 1))
+    >>> found, shifted = distortion(mesh.blocks, mesh.points), mesh.points + 0.3 * (mesh.points[:, :1] == 1.0) * [1, 0]
+    >>> middle = np.flatnonzero(mesh.points[:, 0] == 1.0)
+    >>> none, ways = np.zeros(0, dtype=np.int64), np.tile(np.diag([1.0, 0.0]), (2, 1, 1))
+    >>> bool(abs(slid_along(found, shifted, none, middle, ways) - mesh.points).max() < 0.01)
+    True
+    """
+    free = np.concatenate([inside, nodes])
+    if not len(free):
+        return places
+    solve = splu(sp.csc_array(found.laplacian(len(places))[free][:, free])).solve
+    whole = np.concatenate([np.tile(np.eye(places.shape[1]), (len(inside), 1, 1)), ways])
+
+    def along(values: Array) -> Array:
+        return np.einsum("kij,kj->ki", whole, values)
+
+    return _relaxed(found, places, free, lambda slope: along(solve(along(slope))))
+
+
 def _relaxed(found: Distortion, places: Array, inside: IntArray, solve: Callable[[Array], Array]) -> Array:
     """Places with least distortion for nodes on the boundary that stay."""
     now, value = places, found.value(places)

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import permutations, product
 
 import numpy as np
 import scipy.sparse as sp
@@ -13,6 +14,8 @@ from softway.errors import InputError
 from softway.meshes.cells import CELLS
 from softway.meshes.element import tabulate
 
+_EIGHTH = 6
+"""Tetrahedra in an eighth of a hexahedron."""
 SAME = 1e-8
 """Distance of corners, relative to the size of the mesh, below which they are one."""
 
@@ -24,23 +27,32 @@ class ControlVolumes:
     Parameters
     ----------
     corners
-        (v, k, d) corners: polygons, anticlockwise, in the plane; tetrahedra in space [m].
+        (t, k, d) corners: polygons, anticlockwise, in the plane; tetrahedra in space [m].
     point
         (p,) control volume of each quadrature point; those of a cell may have one in common.
+    pieces
+        Number of consecutive polygons or tetrahedra that make up one of the v control volumes.
     """
 
     corners: Array
     point: IntArray
+    pieces: int = 1
+
+    @property
+    def whole(self) -> Array:
+        """Corners (v, pieces k, d) of the control volumes [m]."""
+        count, k, d = self.corners.shape
+        return self.corners.reshape(count // self.pieces, self.pieces * k, d)
 
     @property
     def centre(self) -> Array:
         """Means (v, d) of the corners [m]."""
-        return np.asarray(self.corners.mean(axis=1))
+        return np.asarray(self.whole.mean(axis=1))
 
     def neighbours(self) -> sp.csr_array:
         """Matrix (v, v) with ones for control volumes that have a corner in common, themselves among them."""
-        count, k, d = self.corners.shape
-        points = self.corners.reshape(-1, d)
+        count, k, d = self.whole.shape
+        points = self.whole.reshape(-1, d)
         pairs = cKDTree(points).query_pairs(SAME * float(np.ptp(points, axis=0).max()), output_type="ndarray")
         links = sp.coo_array((np.ones(len(pairs)), pairs.T), shape=(len(points),) * 2)
         corner = connected_components(links, directed=False)[1]
@@ -51,7 +63,7 @@ class ControlVolumes:
 
 
 def require_cells(blocks: Mapping[str, IntArray]) -> None:
-    """Refuse a mesh of bars, of hexahedra, or of several types of cells.
+    """Refuse a mesh of bars, of quadratic hexahedra, or of several types of cells.
 
     Raises
     ------
@@ -59,16 +71,19 @@ def require_cells(blocks: Mapping[str, IntArray]) -> None:
         With the cells.
     """
     cell, *others = blocks
-    if others or CELLS[cell].dim < 2 or CELLS[cell].corners == 8:
-        raise InputError("mesh", f"cells {', '.join(blocks)}", "one type of triangles, quadrilaterals or tetrahedra")
+    if others or CELLS[cell].dim < 2 or CELLS[cell].corners == 8 and cell != "hex8":
+        remedy = "one type of triangles, quadrilaterals, tetrahedra, or hex8"
+        raise InputError("mesh", f"cells {', '.join(blocks)}", remedy)
 
 
 def control_volumes(blocks: Mapping[str, IntArray], places: Array, points: Mapping[str, int]) -> ControlVolumes:
     """Control volumes of a mesh of one type of cell.
 
     A quadrilateral with k times k points has the images of k times k rectangles whose areas are the weights, a triangle
-    with three points those of the three parts that the lines from its centre to the middles of its sides cut off; other
-    cells are one control volume, with the mean of their points.
+    with three points those of the three parts that the lines from its centre to the middles of its sides cut off, a
+    hexahedron with eight points its eighths; other cells are one control volume, with the mean of their points.  An
+    eighth is six tetrahedra between a corner, middles of edges and of faces, and the centre of the cell: those of cells
+    with a face in common fit together, and fill the volume of the trilinear cells.
 
     Parameters
     ----------
@@ -82,7 +97,7 @@ def control_volumes(blocks: Mapping[str, IntArray], places: Array, points: Mappi
     Raises
     ------
     InputError
-        For several types of cells, or hexahedra.
+        For several types of cells, bars, or quadratic hexahedra.
 
     Examples
     --------
@@ -95,14 +110,16 @@ def control_volumes(blocks: Mapping[str, IntArray], places: Array, points: Mappi
     parts = _parts(cell, points[cell])
     table = tabulate(cell, parts.reshape(-1, CELLS[cell].dim))[0]
     corners = np.einsum("ka,ead->ekd", table, places[nodes]).reshape(len(nodes) * len(parts), *parts.shape[1:])
-    own = np.arange(len(nodes) * points[cell])
-    return ControlVolumes(corners=corners, point=own if len(parts) > 1 else own // points[cell])
+    own, pieces = np.arange(len(nodes) * points[cell]), _EIGHTH if CELLS[cell].corners == 8 else 1
+    return ControlVolumes(corners=corners, point=own if len(parts) > pieces else own // points[cell], pieces=pieces)
 
 
 def _parts(cell: str, points: int) -> Array:
     """Corners (v, k, r) of the parts of a reference cell: one for each point, or one for all."""
     it = CELLS[cell]
     whole = it.nodes[None, : it.corners]
+    if cell == "hex8":
+        return _eighths()
     k = round(points**0.5)
     if it.corners == 4 and it.dim == 2 and k * k == points and k > 1:
         cuts = np.concatenate([[0.0], np.cumsum(0.5 * np.polynomial.legendre.leggauss(k)[1])])
@@ -114,3 +131,15 @@ def _parts(cell: str, points: int) -> Array:
         ends = ((a, middle[0], centre, middle[2]), (c, middle[2], centre, middle[1]), (b, middle[1], centre, middle[0]))
         return np.array(ends)
     return np.asarray(whole)
+
+
+def _eighths() -> Array:
+    """Corners (48, 4, 3) of the tetrahedra of the eighths of the reference cube, in the order of its points."""
+    found = []
+    for corner in product((0.0, 1.0), repeat=3):
+        for axes in permutations(range(3)):
+            way = [np.array(corner)]
+            for axis in axes:
+                way.append(np.where(np.arange(3) == axis, 0.5, way[-1]))
+            found.append(way)
+    return np.array(found)

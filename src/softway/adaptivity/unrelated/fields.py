@@ -16,6 +16,8 @@ from softway.meshes.element import element, exact_degree
 
 NEAR = 24
 """Simplices near a place among which the one around it is looked for."""
+PORTION = 20_000
+"""Points that are looked for at once."""
 _SIMPLICES = {
     3: ((0, 1, 2),),
     4: ((0, 1, 2), (0, 2, 3)),
@@ -58,18 +60,54 @@ def interpolation(blocks: Mapping[str, IntArray], places: Array, points: Array) 
     >>> (found @ square).round(12).tolist()
     [[0.25, 0.5]]
     """
-    cells = simplices(blocks)
-    x = places[cells]
-    count = min(NEAR, len(cells))
-    near = cKDTree(x.mean(axis=1)).query(points, k=count)[1].reshape(len(points), count)
-    inverse = np.linalg.inv(np.swapaxes(x[:, 1:] - x[:, :1], 1, 2))
-    inner = np.einsum("mkij,mkj->mki", inverse[near], points[:, None] - x[near, 0])
+    nodes, values = _nearest(simplices(blocks), places, points)
+    return _rows(nodes, values, len(places))
+
+
+def within_simplices(cells: IntArray, places: Array, points: Array) -> sp.csr_array:
+    """Matrix (m, n) of the values at points (m, d) of nodal fields, linear in simplices ``cells`` (s, d + 1).
+
+    Points outside get values of the nearest simplex, with shares that are not negative: within those of its nodes.
+
+    Examples
+    --------
+    >>> triangle = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    >>> within_simplices(np.array([[0, 1, 2]]), triangle, np.array([[0.5, -1.0]])).toarray().tolist()
+    [[0.75, 0.25, 0.0]]
+    """
+    nodes, values = _nearest(cells, places, points)
+    inside = np.maximum(values, 0.0)
+    return _rows(nodes, inside / inside.sum(axis=1, keepdims=True), len(places))
+
+
+def _nearest(cells: IntArray, places: Array, points: Array) -> tuple[IntArray, Array]:
+    """Nodes (m, d + 1) of the simplices around points (m, d), and their shares there."""
+    x, count = places[cells], min(NEAR, len(cells))
+    tree, inverse = cKDTree(x.mean(axis=1)), np.asarray(np.linalg.inv(np.swapaxes(x[:, 1:] - x[:, :1], 1, 2)), float)
+    found = [_around(tree, count, x[:, 0], inverse, part) for part in _portions(points)]
+    which, shares = (np.concatenate(part) for part in zip(*found, strict=True))
+    return cells[which], shares
+
+
+def _portions(points: Array) -> list[Array]:
+    """Points (m, d) in portions that fit into the memory."""
+    return [points[k : k + PORTION] for k in range(0, max(len(points), 1), PORTION)]
+
+
+def _around(tree: cKDTree, count: int, origin: Array, inverse: Array, points: Array) -> tuple[IntArray, Array]:
+    """Simplices (m,) around points (m, d), and the shares (m, d + 1) of their nodes."""
+    near = tree.query(points, k=count)[1].reshape(len(points), count)
+    inner = np.einsum("mkij,mkj->mki", inverse[near], points[:, None] - origin[near])
     shares = np.concatenate([1.0 - inner.sum(axis=2, keepdims=True), inner], axis=2)
     best = shares.min(axis=2).round(12).argmax(axis=1)
     row = np.arange(len(points))
-    nodes, values = cells[near[row, best]], shares[row, best]
-    where = np.repeat(row, nodes.shape[1]), nodes.ravel()
-    return sp.csr_array((values.ravel(), where), shape=(len(points), len(places)))
+    return near[row, best], shares[row, best]
+
+
+def _rows(nodes: IntArray, values: Array, count: int) -> sp.csr_array:
+    """Matrix (m, n) with the values (m, k) at the nodes (m, k)."""
+    where = np.repeat(np.arange(len(nodes)), nodes.shape[1]), nodes.ravel()
+    return sp.csr_array((values.ravel(), where), shape=(len(nodes), count))
 
 
 def projected(before: DiscreteSolid, places: Array, after: DiscreteSolid, field: Array) -> Array:

@@ -21,6 +21,9 @@ SECTIONS = Axisymmetric, PlaneStrain, Volume
 RATES = Jaumann, Truesdell
 """Objective rates that do not know the deformation since the start."""
 
+PASSING = "viscous", "temperature", "warming", "stiffness", "stiffening"
+"""Arrays that only some laws need, whose means pass."""
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Recast:
@@ -61,7 +64,7 @@ class Recast:
         return np.asarray(cast + (total - float(self.after @ cast)) / float(self.after.sum()))
 
     def _cast(self, values: Array) -> Array:
-        count, flat = len(self.old.corners), values.reshape(len(values), -1)
+        count, flat = len(self.old.whole), values.reshape(len(values), -1)
         means = np.zeros((count, flat.shape[1]))
         np.add.at(means, self.old.point, self.before[:, None] * flat)
         means /= np.bincount(self.old.point, self.before, minlength=count)[:, None]
@@ -135,7 +138,8 @@ def recast_state(cast: Recast, state: MaterialState, reference: Array) -> Materi
     """
     share = reference / cast.before
     nodes = cast.nodes, state.displacement.shape[1]
-    optional: dict[str, Any] = {} if state.viscous is None else {"viscous": cast.of(state.viscous)}
+    known = {name: values for name in PASSING if (values := getattr(state, name)) is not None}
+    optional: dict[str, Any] = {name: cast.of(values) for name, values in known.items()}
     return replace(
         state,
         displacement=np.zeros(nodes),

@@ -93,23 +93,33 @@ def overlap(old: ControlVolumes, new: ControlVolumes, *, radial: bool = False) -
     [[2.0]]
     """
     own = np.repeat(np.arange(len(old.corners))[:, None], 2, axis=1)
-    itself = _moments(old.corners, old.corners, own, radial)
+    itself = _moments(old.corners, old.corners, own, radial).reshape(len(old.whole), old.pieces, -1).sum(axis=1)
     centroid = itself[:, 1:] / itself[:, :1]
     pairs = _candidates(old, new)
-    found = _moments(old.corners, new.corners, pairs, radial)
-    some = found[:, 0] != 0.0
-    pairs, found = pairs[some], found[some]
+    pairs, found = _joined(pairs, _moments(old.corners, new.corners, pairs, radial), old.pieces, new.pieces)
     around = old.neighbours()
     return Overlap(
         pairs=pairs[:, ::-1],
         measure=found[:, 0],
         arm=found[:, 1:] - found[:, :1] * centroid[pairs[:, 0]],
-        covered=np.asarray(np.bincount(pairs[:, 1], found[:, 0], minlength=len(new.corners)), dtype=float),
+        covered=np.asarray(np.bincount(pairs[:, 1], found[:, 0], minlength=len(new.whole)), dtype=float),
         nearest=cKDTree(old.centre).query(new.centre)[1].astype(np.int64),
         slopes=_slopes(centroid, around),
-        reach=old.corners - centroid[:, None],
+        reach=old.whole - centroid[:, None],
         around=around,
     )
+
+
+def _joined(pairs: IntArray, moments: Array, ours: int, theirs: int) -> tuple[IntArray, Array]:
+    """Pairs of control volumes and their moments, from those of their pieces."""
+    some = moments[:, 0] != 0.0
+    pairs, moments = pairs[some], moments[some]
+    if ours == 1 and theirs == 1:
+        return pairs, moments
+    both, number = np.unique(pairs // [ours, theirs], axis=0, return_inverse=True)
+    out = np.zeros((len(both), moments.shape[1]))
+    np.add.at(out, number.ravel(), moments)
+    return np.asarray(both, dtype=np.int64), out
 
 
 def _moments(one: Array, other: Array, pairs: IntArray, radial: bool) -> Array:

@@ -88,21 +88,22 @@ def tetrahedron_overlaps(one, other, pairs):
     """
     found = np.zeros((len(pairs), 4))
     now, then = np.empty((96, 4, 3)), np.empty((96, 4, 3))
-    height, cut = np.empty(4), np.empty((6, 3))
+    height, order, cut = np.empty(4), np.empty(4, np.int64), np.empty((6, 3))
+    normal = np.empty(3)
     for k in range(len(pairs)):
-        b = other[pairs[k, 1]]
-        now[0] = one[pairs[k, 0]]
+        a, b = one[pairs[k, 0]], other[pairs[k, 1]]
+        if _apart(b, a, normal) or _apart(a, b, normal):
+            continue
+        now[0] = a
         count = 1
         for f in range(4):
             p = b[(f + 1) % 4]
-            normal = _cross(b[(f + 2) % 4] - p, b[(f + 3) % 4] - p)
-            if _dot(normal, b[f] - p) < 0.0:
-                normal = -normal
+            _inward(b, f, normal)
             kept = 0
             for t in range(count):
                 for j in range(4):
-                    height[j] = _dot(normal, now[t, j] - p)
-                kept = _cut_tetrahedron(now[t], height, cut, then, kept)
+                    height[j] = _height(normal, now[t, j], p)
+                kept = _cut_tetrahedron(now[t], height, order, cut, then, kept)
             count = kept
             now[:count] = then[:count]
         for t in range(count):
@@ -112,6 +113,36 @@ def tetrahedron_overlaps(one, other, pairs):
             for i in range(3):
                 found[k, 1 + i] += 0.25 * volume * (now[t, 0, i] + now[t, 1, i] + now[t, 2, i] + now[t, 3, i])
     return found
+
+
+@kernel
+def _inward(x, f, out):
+    """Write the normal of the face of a tetrahedron opposite to its corner f that points to this corner."""
+    p, q, r = x[(f + 1) % 4], x[(f + 2) % 4], x[(f + 3) % 4]
+    ux, uy, uz = q[0] - p[0], q[1] - p[1], q[2] - p[2]
+    vx, vy, vz = r[0] - p[0], r[1] - p[1], r[2] - p[2]
+    out[0], out[1], out[2] = uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx
+    if _height(out, x[f], p) < 0.0:
+        out[0], out[1], out[2] = -out[0], -out[1], -out[2]
+
+
+@kernel
+def _height(normal, x, p):
+    """Height of a point over the plane through p, times the length of its normal."""
+    return normal[0] * (x[0] - p[0]) + normal[1] * (x[1] - p[1]) + normal[2] * (x[2] - p[2])
+
+
+@kernel
+def _apart(x, y, normal):
+    """Whether a tetrahedron y is on the outer side of a face of a tetrahedron x."""
+    for f in range(4):
+        _inward(x, f, normal)
+        p, outside = x[(f + 1) % 4], True
+        for j in range(4):
+            outside = outside and _height(normal, y[j], p) <= 0.0
+        if outside:
+            return True
+    return False
 
 
 @kernel
@@ -131,10 +162,17 @@ def _dot(u, v):
 
 
 @kernel
-def _cut_tetrahedron(x, height, cut, out, kept):
+def _cut_tetrahedron(x, height, order, cut, out, kept):
     """Write tetrahedra that fill the part of one with positive heights, from row ``kept`` on; returns the next row."""
-    order = np.argsort(-height)
-    above = int((height > 0.0).sum())
+    order[0], order[1], order[2], order[3] = 0, 1, 2, 3
+    above = 0
+    for j in range(4):
+        k = j
+        while k > 0 and height[order[k - 1]] < height[j]:
+            order[k] = order[k - 1]
+            k -= 1
+        order[k] = j
+        above += height[j] > 0.0
     if above == 4:
         out[kept] = x
         return kept + 1

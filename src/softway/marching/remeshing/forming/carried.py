@@ -15,8 +15,10 @@ from softway.arrays import Array
 from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce
 from softway.marching.remeshing.carried.settling import Unsettled
 from softway.marching.remeshing.carried.surface_forces import SurfaceForces, surface_forces
+from softway.marching.remeshing.carried_heat import account_of_heat, heat_of, with_digits
 from softway.marching.remeshing.forming.closing import closed, dissipated, heavy
 from softway.marching.remeshing.forming.formed_scene import FormedScene
+from softway.marching.remeshing.forming.heat import heat_on, warmed_state
 from softway.marching.results.exchange import Exchange
 from softway.marching.state.march_state import MarchState
 from softway.marching.state.model_state import ModelState, join_states, split_states
@@ -49,12 +51,16 @@ def carried_on(
         pair = heavy(old.model, before), heavy(new.model, after)
         velocity[name], acceleration[name] = (moved_on(*pair, u, field[name]) for field in (velocity, acceleration))
     state = replace(state, displacement=displacement, memory=memories, velocity=velocity, acceleration=acceleration)
+    warmth = heat_on((old.model, new.model), now.state, reasons)
+    state = warmed_state(new.model, state, warmth, reasons)
     surface = _surface(old, new, now.state, reasons)
     settles = bool(new.model.inert and not new.model.space.every(new.model.massive))
     if settles:
         joined = _settled(new.model, state, surface, now.step_history.span)
     else:
         joined = _in_contact(old.model, new.model, now.state, state, surface)
+    joined = with_digits(new.model, joined, warmth)
+    heats = heat_of(old.model, now.state), heat_of(new.model, joined)
     lost = dissipated(new.model, joined) - dissipated(old.model, now.state)
     joined, taken = closed(old, new, now.state, joined, lost, list(reasons))
     numbers = {p.name: k for k, p in enumerate(new.model.parts)}
@@ -63,6 +69,7 @@ def carried_on(
         now.account,
         remeshing=now.account.remeshing + float(taken.sum()),
         dissipation=now.account.dissipation + float(lost.sum()),
+        heat=account_of_heat(now.account.heat, *heats, 0.0),
     )
     assert now.remeshed is not None
     failed = {name: quality for name, quality in now.remeshed.failed.items() if name not in reasons}

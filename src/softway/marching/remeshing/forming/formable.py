@@ -1,17 +1,21 @@
 """Which solids may get new meshes: refusals, and solids with ``auto`` whose meshes stay."""
 
 import logging
+from collections.abc import Iterable, Mapping
 from dataclasses import replace
 
 import numpy as np
 
 from softway.adaptivity.new_cells.mmg import mmg
 from softway.adaptivity.unrelated.control_volumes import require_cells
+from softway.adaptivity.unrelated.heat import require_simplices
 from softway.adaptivity.unrelated.memory import require_recast
+from softway.bodies.conductor import Thermal
 from softway.bodies.setup.loads import Traction
 from softway.bodies.setup.supports import Carried, Guided
 from softway.bodies.solid import Solid
 from softway.errors import InputError, within
+from softway.heat.coupled.solid_temperature import TEMPERATURE
 from softway.marching.remeshing.admitted import adaptions
 from softway.marching.rules.slab_rule import Method
 from softway.meshes.mesh import Mesh
@@ -60,28 +64,41 @@ def require_formable(model: Model, name: str, method: Method) -> None:
     ------
     InputError
         With the place in the scene: laws that know the undeformed shape, several materials, plane stress, other cells,
-        heat, bulk viscosity, ties, tractions, supports that measure from the undeformed shape, new cells of other
-        shapes or around supports inside, Mmg that is not installed, rigid bodies, solids
-        that adapt, or central differences.
+        thermal expansion, several laws of heat, bulk viscosity, ties, tractions, supports that measure from the
+        undeformed shape, new cells of other shapes or around supports inside, Mmg that is not installed, rigid bodies,
+        solids that adapt, or central differences.
     """
     part = next(p for p in model.parts if p.name == name)
     with within(f"bodies.{name}"):
         require_recast(part)
         require_cells(part.mesh.blocks)
         _require_new_cells(part.mesh, _solid(model, name))
-        _require_plain(_solid(model, name))
+        _require_plain(_solid(model, name), part.mesh.blocks)
     _require_alone(model, name, method)
 
 
-def _require_plain(solid: Solid) -> None:
-    """Refuse parts of a solid that do not pass to a new mesh."""
-    for key, given in (("thermal", solid.thermal), ("shock", solid.shock)):
-        if given is not None:
-            what = {"thermal": "a temperature", "shock": "bulk viscosity"}[key]
-            raise InputError(key, f"{what}, which does not pass to a new mesh", f"no {key}, or a mesh that stays")
+def _require_plain(solid: Solid, blocks: Iterable[str]) -> None:
+    """Refuse parts of a solid of some types of cells that do not pass to a new mesh."""
+    if solid.shock is not None:
+        raise InputError("shock", "bulk viscosity, which does not pass to a new mesh", "no shock, or a mesh that stays")
+    if solid.thermal is not None:
+        with within("thermal"):
+            require_simplices(blocks)
+            _require_passing(solid.thermal)
     if any(isinstance(support, Guided | Carried) for support in solid.supports):
         problem = "Guided or Carried, which measure from the shape at the start"
         raise InputError("supports", problem, "Fixed or Driven, or a mesh that stays")
+
+
+def _require_passing(thermal: Thermal) -> None:
+    """Refuse heat that does not pass to a new mesh."""
+    for key in ("expansion", "melting_strain"):
+        if getattr(thermal, key):
+            problem = "a free strain, whose stress knows the deformation since the start"
+            raise InputError(key, problem, f"no {key}, or a mesh that stays")
+    if isinstance(thermal.law, Mapping):
+        problem = "several laws, whose regions have other capacities on a new mesh"
+        raise InputError("law", problem, "one law, or a mesh that stays")
 
 
 def makes_cells(how: Remesh, mesh: Mesh, solid: Solid) -> bool:
@@ -133,7 +150,8 @@ def _require_alone(model: Model, name: str, method: Method) -> None:
     if model.rigid is not None:
         raise InputError(place, "in a scene with rigid bodies", "tools in place of rigid bodies, or a mesh that stays")
     tied = int((model.linked == model.linked[list(model.meshes).index(name)]).sum()) > 1
-    if tied or model.bonds or model.companions:
+    others = any(companion.field != TEMPERATURE for companion in model.companions)
+    if tied or model.bonds or others:
         raise InputError(place, "in a scene with ties or other fields", "a scene without, or a mesh that stays")
 
 

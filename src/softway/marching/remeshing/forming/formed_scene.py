@@ -17,6 +17,7 @@ from softway.bodies.setup.placement import Placement
 from softway.bodies.solid import Solid
 from softway.errors import InputError, within
 from softway.heat.coupled.build import build
+from softway.laws.heat.heat_content import ZERO
 from softway.marching.remeshing.forming.formable import replacements
 from softway.marching.state.march_state import MarchState
 from softway.meshes.mesh import Mesh
@@ -243,6 +244,8 @@ def _density(scene: Scene, name: str) -> float:
 
 
 def _still(scene: Scene, name: str, mesh: Mesh, density: float) -> Solid:
-    """A solid on another mesh, where it is: its motion is in the state."""
+    """A solid on another mesh, where it is: its motion and its temperature are in the state."""
     still = replace(_solid(scene, name), mesh=mesh, place=Placement(), group=(), density=density)
+    if still.thermal is not None:
+        still = replace(still, thermal=replace(still.thermal, temperature=ZERO))
     return replace(still, displacement=Uniform(), velocity=Uniform())

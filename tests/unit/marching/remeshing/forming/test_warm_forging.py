@@ -1,0 +1,212 @@
+"""Warm billets whose meshes are replaced: first and second law, heat of plastic work, films, contacts, melting."""
+
+from dataclasses import replace
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from forging import HEIGHT, KEPT, changes, continues, force, press
+
+import softway as sw
+from softway.arrays import Array
+from softway.bodies.setup.heat_loads import HeatLoad
+from softway.errors import InputError
+from softway.laws.law import Material
+from softway.marching.remeshing.carried_heat import temperature_of
+from softway.marching.remeshing.forming.formable import formable
+from softway.meshes.remeshed.remesh import Remeshing
+
+HOW = sw.meshes.Remesh(ratio=1.3, shortened=0.0)
+PLASTIC = sw.J2(E=1e3, nu=0.3, yield_stress=1.0, hardening=sw.laws.LinearHardening(modulus=0.5))
+STEEL = sw.heat.Conduction(conductivity=1e-2, capacity=1e-2)
+LATENT = sw.heat.Latent(heat=1.0, melting=1050.0)
+CURVED = replace(STEEL, capacity=sw.heat.TemperatureTable(temperatures=(900.0, 1200.0), values=(0.01, 0.02)))
+WARM = sw.bodies.Thermal(law=STEEL, temperature=lambda x: 1000.0 + 100.0 * x[:, 1])
+
+
+def billet(
+    remesh: Remeshing,
+    thermal: sw.bodies.Thermal = WARM,
+    cell: str = "quad4",
+    material: Material = PLASTIC,
+    contact: sw.heat.ContactHeat | None = None,
+    loads: tuple[HeatLoad, ...] = (),
+) -> sw.Scene:
+    """The press with a warm body."""
+    plain = press((6, 5), remesh, material)
+    mesh = sw.meshes.Rectangle(size=(1.0, HEIGHT), cells=(6, 5), cell=cell).build()
+    mesh = mesh.with_tag("flank", lambda x: (x[:, 0] > 0.999) & (x[:, 1] < 0.999 * HEIGHT))
+    dilatation = "mean" if cell == "quad4" else "corner"
+    body = replace(plain.bodies["body"], mesh=mesh, thermal=thermal, dilatation=dilatation)
+    contacts = tuple(replace(one, heat=contact) for one in plain.contacts)
+    return replace(plain, bodies={**plain.bodies, "body": body}, contacts=contacts, loads=loads)
+
+
+def upset(scene: sw.Scene, reduction: float, slabs: int) -> list[sw.Step]:
+    until = reduction * HEIGHT
+    return list(sw.march(scene, until=until, step=until / slabs))
+
+
+def temperatures(one: sw.Step) -> Array:
+    return one.after.fields["temperature"]["body"][:, 0]
+
+
+def keeps_its_heat(steps: list[sw.Step], least: float = -1e-14) -> None:
+    """Content and energy are in the accounts to rounding; changes of the mesh keep the content, lower no entropy, and
+    bring no new extremes.
+    """
+    for last, taken in pairwise(steps):
+        old, new = last.ledger.heat, taken.ledger.heat
+        assert old is not None
+        assert new is not None
+        assert abs(new.error) < 1e-12 * new.content
+        if taken.exchanges:
+            assert new.entropy - new.produced - old.entropy >= least
+            before, after = temperatures(last), taken.before.fields["temperature"]["body"]
+            assert before.min() * (1.0 - 1e-12) <= after.min()
+            assert after.max() <= before.max() * (1.0 + 1e-12)
+    assert abs(steps[-1].ledger.energy_error) < 1e-12 * steps[-1].ledger.work_external
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("cell", ["quad4", "tri3"])
+def test_a_billet_upset_to_half_of_its_height(cell: str) -> None:
+    steps = upset(billet(HOW, cell=cell), 0.5, 16)
+    assert len(changes(steps)) >= 3
+    keeps_its_heat(steps)
+    heat, ledger = steps[-1].ledger.heat, steps[-1].ledger
+    begun = steps[0].ledger.heat
+    assert heat is not None
+    assert begun is not None
+    start = begun.content - begun.received
+    assert heat.content == pytest.approx(start + heat.received, rel=1e-13)
+    plastic = heat.received - heat.friction + heat.cold_work
+    assert heat.received - heat.friction == pytest.approx(0.9 * plastic, rel=1e-12)
+    assert 0.7 * ledger.dissipation < plastic < ledger.dissipation
+    assert heat.received > 0.05 * start
+
+
+def test_as_on_the_mesh_of_the_start_while_that_is_good() -> None:
+    kept, new = (upset(billet(how), 0.25, 6) for how in (KEPT, HOW))
+    assert changes(new)
+    one, other = kept[-1].ledger.heat, new[-1].ledger.heat
+    assert one is not None
+    assert other is not None
+    assert force(new[-1]) == pytest.approx(force(kept[-1]), rel=5e-3)
+    assert other.received == pytest.approx(one.received, rel=2e-3)
+    rises = [temperatures(steps[-1]) - 1000.0 for steps in (kept, new)]
+    assert rises[1].mean() == pytest.approx(rises[0].mean(), rel=5e-3)
+    assert rises[1].max() == pytest.approx(rises[0].max(), rel=0.03)
+
+
+def test_a_uniform_temperature_stays() -> None:
+    """Without plastic heat, and in equilibrium with its surroundings."""
+    thermal = replace(WARM, temperature=1000.0, heating=0.0)
+    loads = (sw.heat.Convection(on="body.right", coefficient=0.1, ambient=1000.0),)
+    steps = upset(billet(HOW, thermal, loads=loads), 0.2, 4)
+    assert changes(steps)
+    assert temperatures(steps[-1]) == pytest.approx(1000.0, rel=1e-12)
+
+
+def test_tools_films_and_held_nodes_find_the_new_surface() -> None:
+    """Heat passes into the tool in every slab, and prescribed temperatures are on the new mesh."""
+    contact = sw.heat.ContactHeat(conductance=1e-3, tool_temperature=400.0)
+    loads = (
+        sw.heat.Temperature(on="body.bottom", value=900.0),
+        sw.heat.Convection(on="body.right", coefficient=0.02, ambient=300.0),
+    )
+    steps = upset(billet(HOW, contact=contact, loads=loads), 0.25, 8)
+    assert changes(steps)
+    for last, taken in pairwise(steps):
+        old, new = last.ledger.heat, taken.ledger.heat
+        assert old is not None
+        assert new is not None
+        assert abs(new.error) < 1e-12 * new.content
+        mesh = taken.model.parts[0].mesh
+        bottom = mesh.nodes("bottom")
+        assert sum(new.through) > sum(old.through)
+        assert temperatures(taken)[bottom] == pytest.approx(900.0, rel=1e-12)
+
+
+def test_laws_that_soften_know_the_temperature_of_their_points() -> None:
+    soft = replace(PLASTIC, softening=sw.laws.JohnsonCookSoftening(reference=300.0, melting=1800.0))
+    new = upset(billet(HOW, material=soft), 0.2, 5)
+    assert changes(new)
+    keeps_its_heat(new)
+    changed = new[changes(new)[-1]]
+    found = temperature_of(changed.model)
+    state = changed.march_state.state.start.states[0]
+    assert found is not None
+    assert state is not None
+    assert state.temperature is not None
+    (point,) = found[1].points
+    nodal = temperatures(changed)
+    assert state.temperature == pytest.approx(point.at(np.stack([nodal] * 3))[0], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    "thermal",
+    [
+        pytest.param(replace(WARM, law=CURVED), id="capacity by temperature"),
+        pytest.param(
+            replace(WARM, stiffness=sw.heat.StiffnessTable(temperatures=(900.0, 1500.0), values=(1.0, 0.5))),
+            id="stiffness by temperature",
+        ),
+        pytest.param(replace(WARM, law=replace(STEEL, latent=replace(LATENT, half_range=20.0))), id="mushy"),
+    ],
+)
+def test_other_laws_of_heat(thermal: sw.bodies.Thermal) -> None:
+    steps = upset(billet(HOW, thermal), 0.2, 5)
+    assert changes(steps)
+    keeps_its_heat(steps)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("cell", ["quad4", "tri3"])
+def test_fronts_of_melting_pass_with_their_latent_heat(cell: str) -> None:
+    steps = upset(billet(HOW, replace(WARM, law=replace(STEEL, latent=LATENT)), cell), 0.45, 8)
+    assert changes(steps)
+    for last, taken in pairwise(steps):
+        old, new = last.ledger.heat, taken.ledger.heat
+        assert old is not None
+        assert new is not None
+        assert abs(new.error) < 1e-12 * new.content
+        if taken.exchanges:
+            assert new.entropy - new.produced - old.entropy >= -1e-14
+            liquid = new.liquid["body"]
+            assert 0.0 < liquid < np.pi * HEIGHT
+
+
+def test_the_same_bits_from_a_stored_state() -> None:
+    scene, until = billet(HOW), 0.25 * HEIGHT
+    whole = list(sw.march(scene, until=until, step=until / 6))
+    first = changes(whole)[0]
+    for slabs in (first, first + 1):
+        continues(scene, whole, slabs, until=until, step=until / 6)
+
+
+@pytest.mark.parametrize(
+    ("thermal", "where"),
+    [
+        (replace(WARM, expansion=1e-5), "bodies.body.thermal.expansion"),
+        (
+            replace(WARM, law=replace(STEEL, latent=LATENT), melting_strain=0.01),
+            "bodies.body.thermal.melting_strain",
+        ),
+        (replace(WARM, law={"a": STEEL}), "bodies.body.thermal.law"),
+    ],
+)
+def test_heat_that_does_not_pass(thermal: sw.bodies.Thermal, where: str) -> None:
+    """With numbers it is refused, with a remedy; with auto the mesh stays."""
+    scene = billet(sw.meshes.Remesh(), thermal)
+    body = scene.bodies["body"]
+    assert isinstance(body, sw.Solid)
+    mesh = body.mesh.with_region("a", lambda x: x[:, 0] < 2.0)  # type: ignore[union-attr]
+    scene = replace(scene, bodies={**scene.bodies, "body": replace(body, mesh=mesh)})
+    with pytest.raises(InputError) as refusal:
+        sw.march(scene, until=1e-3, step=1e-3)
+    assert refusal.value.where == where
+    assert "mesh that stays" in refusal.value.remedy
+    body = replace(body, mesh=mesh, remesh="auto")
+    stay = formable(sw.build(replace(scene, bodies={**scene.bodies, "body": body})), sw.FixedPoint())[1]
+    assert set(stay) == {"body"}
