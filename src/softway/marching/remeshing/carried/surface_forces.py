@@ -34,6 +34,9 @@ class SurfaceForces:
         (c, n) share of what touches there, one on a node with a closed row.
     sliding, slip
         (c, n) and (c, n, d) share that slips, and velocity of the slip [m/s], both times ``closed``.
+    level
+        (c, n) friction of what slips, relative to the resistance of the law to ``slip``, times ``closed``: a slab may
+        have taken areas and speeds of another instant.
     total
         (c, d) sum of the forces of each group [N].
     """
@@ -43,6 +46,7 @@ class SurfaceForces:
     closed: Array
     sliding: Array
     slip: Array
+    level: Array
     total: Array
 
     def on(self, at_nodes: sp.csr_array) -> "SurfaceForces":
@@ -58,6 +62,7 @@ class SurfaceForces:
             closed=of(near, self.closed),
             sliding=of(near, self.sliding),
             slip=of(near, self.slip),
+            level=of(near, self.level),
         )
 
     def first(self, rows: ContactRows, friction: FrictionRows) -> Array:
@@ -68,7 +73,7 @@ class SurfaceForces:
         """Tangential forces (r, d) [N] of the rows under normal forces (r,) [N], and the rows that slip.
 
         Closed rows have the friction of their place; it is cut off at the limit, where they slip.  Rows that slipped
-        have the resistance to their slip.
+        have the resistance to their slip, at the level of their place.
         """
         closed, group = pressure > 0.0, self.groups[rows.contact]
         out = self.first(rows, friction) * closed[:, None]
@@ -81,9 +86,10 @@ class SurfaceForces:
         size, limit = np.linalg.norm(out, axis=1), friction.limit(pressure)
         way = self.closed[group, rows.node]
         slides = closed & (self.sliding[group, rows.node] > SLIDES * way) & (way > 0.0)
-        resistance = friction.resistance(np.linalg.norm(self.slips(rows), axis=1), pressure)[0]
+        resistance = _resistance(friction, self.slips(rows), pressure)
         sliding = slides | (closed & (size > limit) & (limit > 0.0))
-        wanted = np.where(slides, resistance, np.minimum(size, limit))
+        level = np.divide(self.level[group, rows.node], way, out=np.ones_like(way), where=way > 0.0)
+        wanted = np.where(slides, level * resistance, np.minimum(size, limit))
         factor = np.divide(wanted, size, out=np.zeros_like(size), where=size > 0.0)
         return out * factor[:, None], sliding
 
@@ -98,9 +104,11 @@ def surface_forces(model: Model, now: ModelState, groups: IntArray | None = None
     """Friction of a state on the nodes of its model, of its contacts in ``groups``, by default of each by itself."""
     groups = np.arange(len(model.contacts.labels)) if groups is None else groups
     (n, d), count = model.shape, int(groups.max(initial=-1)) + 1
-    rows = groups[model.contacts.contact], model.contacts.node
-    area, closed = model.friction.at(now.start.displacement).area, now.closed.astype(float)
+    rows, friction = (groups[model.contacts.contact], model.contacts.node), model.friction.at(now.start.displacement)
+    area, closed = friction.area, now.closed.astype(float)
     slip = np.zeros_like(now.traction) if now.slip is None else now.slip
+    size, resistance = np.linalg.norm(now.traction, axis=1), _resistance(friction, slip, now.pressure)
+    level = np.divide(size, resistance, out=np.ones_like(size), where=now.sliding & (resistance > 0.0))
 
     def on_nodes(values: Array) -> Array:
         out = np.zeros((count, n, *values.shape[1:]))
@@ -118,8 +126,14 @@ def surface_forces(model: Model, now: ModelState, groups: IntArray | None = None
         closed=np.minimum(share, 1.0),
         sliding=on_nodes(closed * now.sliding) / several,
         slip=on_nodes(closed[:, None] * slip) / several[..., None],
+        level=on_nodes(closed * level) / several,
         total=total,
     )
+
+
+def _resistance(friction: FrictionRows, slip: Array, pressure: Array) -> Array:
+    """Tangential force (r,) of rows that slip with velocities (r, d) under normal forces (r,) [N]."""
+    return friction.resistance(np.linalg.norm(slip, axis=1), pressure)[0]
 
 
 def _along(rows: ContactRows, vectors: Array) -> Array:
