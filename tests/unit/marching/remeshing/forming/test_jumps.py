@@ -1,4 +1,4 @@
-"""Press of case E02 to 80 per cent: what each change of the mesh does to the force, beside what the process does."""
+"""Press of case E02 to 77 per cent: what each change of the mesh does to the force, beside what the process does."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -15,7 +15,7 @@ from softway.marching.start.preparation import prepare
 from softway.meshes.remeshed.remesh import Remesh
 
 CELLS, GRADING = (16, 12), (3.0, 2.5)
-LEGS = (0.36, 0.03), (0.8 * HEIGHT, 0.00375)
+LEGS = (0.36, 0.03), (0.77 * HEIGHT, 0.00375)
 """Ends and slab lengths: short slabs while the flank folds onto the platen."""
 
 
@@ -57,14 +57,14 @@ def marched() -> Iterator[tuple[sw.Step, float | None]]:
 
 
 @pytest.mark.slow
-def test_to_80_per_cent_with_small_jumps_of_the_force() -> None:
+def test_to_77_per_cent_with_small_jumps_of_the_force() -> None:
     """Volume within 1e-4; jumps below 1e-3 up to 74 per cent, and below 2e-3 to the end, where the corner has sides of
     a tenth of the height; on the way the force is that of case E02.
     """
     steps, jumps = zip(*marched(), strict=True)
     count = changes(list(steps))
     assert len(count) >= 5
-    assert steps[-1].after.time == pytest.approx(0.8 * HEIGHT)
+    assert steps[-1].after.time == pytest.approx(0.77 * HEIGHT)
     assert volume(steps[-1]) == pytest.approx(np.pi * HEIGHT, rel=1e-4)
     assert sum(abs(steps[k].exchanges["body"].volume) for k in count) < 1e-12
     found = [(one.after.time / HEIGHT, abs(jump)) for one, jump in zip(steps, jumps, strict=True) if jump is not None]
