@@ -11,7 +11,7 @@ from softway.adaptivity.rezoning.volume import volume_of
 from softway.adaptivity.unrelated.fields import interpolation
 from softway.adaptivity.unrelated.memory import recast, recast_state
 from softway.adaptivity.unrelated.motion import moved_on
-from softway.arrays import Array
+from softway.arrays import Array, IntArray
 from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce
 from softway.marching.remeshing.carried.settling import Unsettled
 from softway.marching.remeshing.carried.surface_forces import SurfaceForces, surface_forces
@@ -88,14 +88,14 @@ def _surface(old: FormedScene, new: FormedScene, now: ModelState, changed: Colle
         points = new.part(part.name).mesh.points
         same = sp.eye_array(len(places), format="csr")
         blocks.append(interpolation(part.mesh.blocks, places, points) if part.name in changed else same)
-    return surface_forces(old.model, now).on(sp.csr_array(sp.block_diag(blocks, format="csr")))
+    return surface_forces(old.model, now, _pairs(old.model)).on(sp.csr_array(sp.block_diag(blocks, format="csr")))
 
 
 def _in_contact(
     before: Model, model: Model, now: ModelState, state: State, surface: SurfaceForces | None
 ) -> ModelState:
-    """State with contact forces that balance the carried stress, of the same sum in each contact as before, and with
-    the friction of the places.
+    """State with contact forces that balance the carried stress, of the same sum between two bodies as before, and
+    with the friction of the places.
     """
     labels = model.contacts.labels
     u = model.join(state.displacement)
@@ -110,8 +110,9 @@ def _in_contact(
     share = np.bincount(rows.node[closed], minlength=len(u)).astype(float)[rows.node]
     pushed = force[rows.node] / np.maximum(share, 1.0)[:, None]
     normal = np.where(closed, np.maximum((pushed * rows.normal).sum(axis=1), 0.0), 0.0)
-    for k in range(len(labels)):
-        mine, total = rows.contact == k, float(now.pressure[before.contacts.contact == k].sum())
+    pairs = _pairs(model)
+    for k in range(int(pairs.max(initial=-1)) + 1):
+        mine, total = pairs[rows.contact] == k, float(now.pressure[pairs[before.contacts.contact] == k].sum())
         found = float(normal[mine].sum())
         normal[mine] *= total / found if found > 0.0 else 0.0
     traction, sliding, slip = joined.traction, joined.sliding, None
@@ -164,6 +165,15 @@ def _balanced(model: Model, force: Array, contact: Array, time: float) -> Array:
         missing = (force - balanced)[part.nodes].sum(axis=0)
         balanced[part.nodes] += np.where(held, missing / np.maximum(held.sum(axis=0), 1), 0.0)
     return np.asarray(balanced)
+
+
+def _pairs(model: Model) -> IntArray:
+    """Number (c,) of the pair of bodies of each contact: a new mesh may have moved tags, and with them parts of the
+    surface to another contact with the same body.
+    """
+    numbers: dict[frozenset[str], int] = {}
+    names = [frozenset(contact.bodies) for contact in model.scene.contacts]
+    return np.array([numbers.setdefault(one, len(numbers)) for one in names], dtype=np.int64)
 
 
 def _slices(model: Model) -> list[tuple[str, slice]]:

@@ -41,6 +41,12 @@ def test_the_corner_follows_the_fold_onto_the_platen() -> None:
     steps = forged(sw.meshes.Remesh(), 0.74, 40, (12, 10))
     flank = [one.after.closed["flank"].any() for one in steps]
     assert any(flank)
+    folded = [k for k in range(1, len(steps)) if steps[k].exchanges and flank[k - 1]]
+    assert folded  # a side of the flank becomes one of the end face, with its force
+    for k in folded:
+        old, new = steps[k - 1].after.pressure, steps[k].before.pressure
+        assert old["flank"].sum() > 1e-3 * old["top"].sum()
+        assert new["flank"].sum() + new["top"].sum() == pytest.approx(old["flank"].sum() + old["top"].sum(), rel=1e-12)
     mesh = steps[-1].model.parts[0].mesh
     assert cell_quality(mesh.blocks, places(steps[-1])).worst[0] > 0.0
     lost = volume(steps[-1]) / (np.pi * HEIGHT) - 1.0
