@@ -8,7 +8,7 @@ import numpy as np
 from softway.cluster.admitted import require_several
 from softway.cluster.own_gradients import method_of_ranks, method_of_whole
 from softway.cluster.rank_mesh import local_nodes
-from softway.cluster.rank_model import held_by, rank_model
+from softway.cluster.rank_model import held_by, rank_model, without_tables
 from softway.cluster.rank_state import RankNumbers, on_all, on_rank, rank_numbers
 from softway.errors import Cancel
 from softway.marching.audit.folded_cells import WatchedCells, watched_cells
@@ -55,16 +55,20 @@ def march_on(
     """
     require_several(model, settings.method, ranks.size)
     prepared = prepare(model, replace(settings, method=method_of_whole(settings.method)), state)
+    start, ends = prepared.march_state, prepared.stepper.ends
     held = held_by(model, ranks)
-    local, numbers = rank_model(model, held, ranks), rank_numbers(model, held)
+    numbers = rank_numbers(model, held)
+    whole = None if ranks.rank else _Whole(watched_cells(model), start.state, split_states(model, start.state))
+    model = without_tables(model)
+    del state, prepared  # what the other ranks hold of the whole
+    local = rank_model(model, held, ranks)
+    del model
     asked = None if not ranks.told(cancel is not None) else lambda: bool(ranks.told(cancel is not None and cancel()))
     method = method_of_ranks(settings.method, tell=ranks.rank == 0)
     own = stepper(local, method, settings.weight, asked, None if ranks.rank else trying)
-    own = replace(own, ends=prepared.stepper.ends)
-    start = prepared.march_state
+    own = replace(own, ends=ends)
     begin = on_rank(replace(start, settings=replace(start.settings, method=settings.method)), numbers)
-    whole = None if ranks.rank else _Whole(watched_cells(model), start.state, split_states(model, start.state))
-    del model, state, prepared, start  # what the other ranks hold of the whole
+    del start
     for step in slabs(own, begin):
         reached = _on_whole(step, whole, numbers, ranks)
         if whole is not None and reached is not None:

@@ -17,11 +17,13 @@ from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.elements.section import Section
 from softway.bodies.elements.strain_operator import StrainOperator
 from softway.bodies.internal_force.assembled import force_of
+from softway.bodies.internal_force.elastic.elastic_force import ElasticForce
+from softway.bodies.internal_force.elastic.kernel_evaluation import KernelEvaluation
 from softway.bodies.internal_force.material_state import MaterialState
 from softway.bodies.internal_force.slab_average import AverageField, DiscreteGradient, SlabForce
 from softway.cluster.cell_energies import CellForce, cell_energies_and_force, of_cells, point_totals
 from softway.cluster.stored_rows import RowTable, row_table
-from softway.laws.law import Damped
+from softway.laws.law import Damped, Material
 from softway.meshes.mesh import Mesh
 from softway.ranks.interface import Ranks
 from softway.ranks.partition import Holding
@@ -112,10 +114,11 @@ class RankForce:
     def stored_rows(self, u: Array, factor: float, viscous_factor: float) -> sp.bsr_array:
         """Rows (n d, n d) at own nodes of ``factor`` times the tangent and its viscous part [N/m]."""
         at = self._at(u)
-        values = factor * self.cells.tangent(at).data
+        values = np.asarray(self.cells.tangent(at).data)
+        values *= factor
         viscous = self.cells.viscous_tangent(at) if viscous_factor > 0.0 else None
         if viscous is not None:
-            values = values + factor * viscous_factor * viscous.data
+            values += factor * viscous_factor * viscous.data
         (table,), d = self.cells.sampling.rows, u.shape[1]
         a = table.shape[2]
         return self.table.rows(values.reshape(-1, a, d, a, d))
@@ -171,10 +174,24 @@ class RankForce:
         return np.asarray(self.adding @ values.reshape(len(values), -1)).reshape(-1, *values.shape[1:])
 
 
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class DeclaredForce:
+    """What the force of a rank is made of: law and section of a solid."""
+
+    material: Material
+    section: Section
+
+
+def declared(part: DiscreteSolid) -> DeclaredForce:
+    """Law and section of a solid of one material."""
+    cells = of_cells(part)
+    return DeclaredForce(material=cells.material, section=cells.section)
+
+
 def rank_force(part: DiscreteSolid, number: int, held: Holding, ranks: Ranks) -> RankForce:
-    """Force of a rank from that of the whole solid with this number; see :class:`RankForce`."""
+    """Force of a rank from what is :func:`declared` of the solid with this number; see :class:`RankForce`."""
     ((kind, all_cells),) = part.mesh.blocks.items()
-    internal = of_cells(part)
+    internal = cast(DeclaredForce, part.internal)
     nodes = all_cells[held.cells[number]]
     first, last = np.searchsorted(held.nodes, [part.nodes.start, part.nodes.stop])
     corner, n = held.local(nodes.ravel() + part.nodes.start) - first, int(last - first)
@@ -186,7 +203,7 @@ def rank_force(part: DiscreteSolid, number: int, held: Holding, ranks: Ranks) ->
     assert isinstance(force, CellForce)
     onto = sp.csr_array((np.ones(len(corner)), corner, np.arange(len(corner) + 1)), shape=(len(corner), n))
     return RankForce(
-        cells=force,
+        cells=_lean(force),
         corner=corner,
         adding=_adding(corner, own),
         counted=held.counted[number],
@@ -202,6 +219,16 @@ def stored_rows(
     """Rows of each solid of a rank, see :meth:`RankForce.stored_rows`."""
     forces = [(cast(RankForce, part.internal), u[part.nodes]) for part in parts]
     return tuple(force.stored_rows(own, factor, viscous_factor) for force, own in forces)
+
+
+def _lean(force: CellForce) -> CellForce:
+    """Force without the tables that matrices by arrays need, where kernels make them."""
+    if not isinstance(force, ElasticForce) or not isinstance(force.work, KernelEvaluation):
+        return force
+    sampling, cells = force.sampling, force.work.cells
+    pattern = replace(sampling.pattern, sums=sp.csr_array((0, 0)), order=np.empty(0, np.int32))
+    plain = replace(force.plain, sampling=replace(sampling, pattern=pattern))
+    return replace(force, plain=plain, work=replace(force.work, cells=replace(cells, pattern=pattern)))
 
 
 def _adding(corner: IntArray, own: BoolArray) -> sp.csr_array:

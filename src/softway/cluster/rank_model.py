@@ -12,7 +12,7 @@ from softway.bodies.dof_map import NodalDofs
 from softway.bodies.internal_force.body_force import BodyForce
 from softway.cluster.own_rows import columns, own_rows
 from softway.cluster.rank_contacts import rank_contacts, rank_friction
-from softway.cluster.rank_force import rank_force
+from softway.cluster.rank_force import declared, rank_force
 from softway.cluster.rank_mesh import local_nodes, rank_mesh
 from softway.meshes.mesh import Mesh
 from softway.model.model import Model
@@ -59,6 +59,12 @@ def rank_model(model: Model, held: Holding, ranks: Ranks) -> Model:
         **matrices,
         **{name: getattr(model, name)[nodes] for name in names},
     )
+
+
+def without_tables(model: Model) -> Model:
+    """Model without the tables of its cells and the matrix of all solids, of which no :func:`rank_model` is made."""
+    parts = tuple(replace(part, internal=cast(BodyForce, declared(part))) for part in model.parts)
+    return replace(model, parts=parts, total=cast(Any, None))
 
 
 def rank_space(model: Model, held: Holding, ranks: Ranks) -> RankSpace:

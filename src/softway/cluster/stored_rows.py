@@ -6,6 +6,7 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.kernels.assembly.row_sums import row_sums
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -30,11 +31,8 @@ class RowTable:
     def rows(self, blocks: Array) -> sp.bsr_array:
         """Rows (n d, n d) from the matrices of the cells (e, a, d, a, d), column before row."""
         d, n, z = blocks.shape[-1], len(self.indptr) - 1, len(self.indices)
-        each = blocks.transpose(0, 3, 1, 4, 2).reshape(-1, d, d)[self.pairs]
-        data = np.empty((z, d, d))
-        for i in range(d):
-            for j in range(d):
-                data[:, i, j] = np.bincount(self.places, each[:, i, j], z)
+        data = np.zeros((z, d, d))
+        row_sums(blocks, self.pairs, self.places, data)
         return sp.bsr_array((data, self.indices, self.indptr), shape=(n * d, n * d))
 
 
@@ -55,4 +53,5 @@ def row_table(nodes: IntArray, own: BoolArray) -> RowTable:
     pairs = np.flatnonzero(own[row].ravel())
     keys, places = np.unique(row.ravel()[pairs] * n + column.ravel()[pairs], return_inverse=True)
     indptr = np.searchsorted(keys, np.arange(n + 1) * n)
-    return RowTable(indices=keys % n, indptr=indptr, pairs=pairs, places=np.asarray(places))
+    short = np.int32 if row.size < 2**31 else np.int64
+    return RowTable(indices=keys % n, indptr=indptr, pairs=pairs.astype(short), places=np.asarray(places, short))
