@@ -13,8 +13,8 @@ import numpy as np
 import scipy.sparse as sp
 
 import softway as sw
+from softway.cluster.cells.rank_force import stored_rows
 from softway.cluster.march import march_on
-from softway.cluster.rank_force import stored_rows
 from softway.cluster.rank_model import held_by, rank_model
 from softway.marching.state.march_state import Settings
 from softway.marching.state.step_control import StepControl

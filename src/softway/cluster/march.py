@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from softway.cluster.admitted import require_several
+from softway.cluster.cells.rank_mesh import local_nodes
 from softway.cluster.own_gradients import method_of_ranks, method_of_whole
-from softway.cluster.rank_mesh import local_nodes
 from softway.cluster.rank_model import held_by, rank_model, without_tables
 from softway.cluster.rank_state import RankNumbers, on_all, on_rank, rank_numbers
 from softway.errors import Cancel
