@@ -112,13 +112,12 @@ def facts(number: int, slab: Step, energy: float) -> dict[str, Any]:
 def marched(ranks: Timed, model: Model, step: float, slabs: int) -> Iterator[dict[str, Any]]:
     """Facts of each slab on rank 0, and on every rank the processor time since the last one."""
     energy = float(model.kinetic(model.velocity).sum())
-    control = StepControl()
-    given = Settings(until=slabs * step, step=step, weight=EndPeaks(), method=sw.FixedPoint(), control=control)
+    method, control = sw.FixedPoint(handover=False), StepControl()
+    given = Settings(until=slabs * step, step=step, weight=EndPeaks(), method=method, control=control)
     march = march_on(ranks, model, given)
     del model
-    begun = clock = cpu = None
+    clock = cpu = None
     for number, slab in enumerate(march, 1):
-        begun = begun or (0.0, 0.0)
         now = perf_counter(), process_time(), ranks.spent["clock"], ranks.spent["cpu"]
         taken = {} if clock is None or cpu is None else _since(clock, cpu, now)
         clock, cpu = (now[0], now[2]), (now[1], now[3])
