@@ -56,17 +56,14 @@ def march_on(
     require_several(model, settings.method, ranks.size)
     prepared = prepare(model, replace(settings, method=method_of_whole(settings.method)), state)
     start, ends = prepared.march_state, prepared.stepper.ends
-    held = held_by(model, ranks)
-    numbers = rank_numbers(model, held)
+    numbers = rank_numbers(model, held_by(model, ranks))
     whole = None if ranks.rank else _Whole(watched_cells(model), start.state, split_states(model, start.state))
     model = without_tables(model)
     del state, prepared  # what the other ranks hold of the whole
-    local = rank_model(model, held, ranks)
-    del model
+    model = rank_model(model, numbers.held, ranks)
     asked = None if not ranks.told(cancel is not None) else lambda: bool(ranks.told(cancel is not None and cancel()))
     method = method_of_ranks(settings.method, tell=ranks.rank == 0)
-    own = stepper(local, method, settings.weight, asked, None if ranks.rank else trying)
-    own = replace(own, ends=ends)
+    own = replace(stepper(model, method, settings.weight, asked, None if ranks.rank else trying), ends=ends)
     begin = on_rank(replace(start, settings=replace(start.settings, method=settings.method)), numbers)
     del start
     for step in slabs(own, begin):
