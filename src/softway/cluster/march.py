@@ -64,9 +64,8 @@ def march_on(
     asked = None if not ranks.told(cancel is not None) else lambda: bool(ranks.told(cancel is not None and cancel()))
     method = method_of_ranks(settings.method, tell=ranks.rank == 0)
     own = replace(stepper(model, method, settings.weight, asked, None if ranks.rank else trying), ends=ends)
-    begin = on_rank(replace(start, settings=replace(start.settings, method=settings.method)), numbers)
-    del start
-    for step in slabs(own, begin):
+    start = on_rank(replace(start, settings=replace(start.settings, method=settings.method)), numbers)
+    for step in slabs(own, start):
         reached = _on_whole(step, whole, numbers, ranks)
         if whole is not None and reached is not None:
             whole = replace(whole, now=reached.march_state.state, before=reached.after)
