@@ -2,6 +2,7 @@
 
 A cube of hexahedra falls onto an inclined plane.  The ranks are threads of one process, so that any number can be
 counted on any machine; times are not measured.  The counts are printed as JSON, a list with one entry a rank.
+``mpiexec -n 8 python benchmarks/processes/large/rank_counts.py`` counts the same of eight processes.
 """
 
 import argparse
@@ -13,8 +14,8 @@ import numpy as np
 import scipy.sparse as sp
 
 import softway as sw
+from softway.cluster.cells.rank_force import stored_rows
 from softway.cluster.march import march_on
-from softway.cluster.rank_force import stored_rows
 from softway.cluster.rank_model import held_by, rank_model
 from softway.marching.state.march_state import Settings
 from softway.marching.state.step_control import StepControl
@@ -22,7 +23,9 @@ from softway.model.build import build
 from softway.model.model import Model
 from softway.model.time_weight import EndPeaks
 from softway.ranks.counted import Counted
-from softway.ranks.threads import Threads, in_threads
+from softway.ranks.interface import Ranks
+from softway.ranks.mpi import launched, processes
+from softway.ranks.threads import in_threads
 
 STIFF, DENSE = 1e4, 1.0
 """Young's modulus [Pa] and density [kg/m^3] of the cube of one metre."""
@@ -41,7 +44,7 @@ def cube(cells: int) -> Model:
     return build(sw.Scene(bodies={"cube": body, "floor": floor}, contacts=(contact,)))
 
 
-def counts(ranks: Threads, model: Model, slabs: int, courant: float) -> dict[str, Any]:
+def counts(ranks: Ranks, model: Model, slabs: int, courant: float) -> dict[str, Any]:
     """Counts of one rank."""
     part, start = model.parts[0], Counted(ranks=ranks)
     step = courant * part.mesh.edge() / model.wave_speed(part)
@@ -71,6 +74,13 @@ def counts(ranks: Threads, model: Model, slabs: int, courant: float) -> dict[str
     }
 
 
+def of_processes(model: Model, slabs: int, courant: float) -> list[dict[str, Any]]:
+    """Counts of the processes that a launcher has started, on the first of them; none on the others."""
+    ranks = processes()
+    mine = np.array([json.dumps(counts(ranks, model, slabs, courant))])
+    return [json.loads(str(text[0])) for text in ranks.collected(mine)]
+
+
 def size_of(thing: object, seen: set[int] | None = None) -> int:
     """Bytes of the arrays of an object, each counted once."""
     seen = set() if seen is None else seen
@@ -91,7 +101,7 @@ def size_of(thing: object, seen: set[int] | None = None) -> int:
 
 
 def main() -> None:
-    """Print the counts."""
+    """Print the counts; of processes, the first one does."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--ranks", type=int, default=8, help="number of ranks")
     parser.add_argument("--cells", type=int, default=12, help="cells along an edge of the cube")
@@ -99,7 +109,10 @@ def main() -> None:
     parser.add_argument("--courant", type=float, default=1.2, help="cells that a wave crosses in a slab")
     asked = parser.parse_args()
     model = cube(asked.cells)
-    print(json.dumps(in_threads(asked.ranks, lambda ranks: counts(ranks, model, asked.slabs, asked.courant)), indent=1))
+    given = model, asked.slabs, asked.courant
+    found = of_processes(*given) if launched() else in_threads(asked.ranks, lambda ranks: counts(ranks, *given))
+    if found:
+        print(json.dumps(found, indent=1))
 
 
 if __name__ == "__main__":

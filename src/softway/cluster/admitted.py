@@ -3,8 +3,6 @@
 from collections.abc import Iterator
 
 from softway.bodies.dof_map import NodalDofs
-from softway.bodies.internal_force.elastic.elastic_force import ElasticForce
-from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce
 from softway.bodies.solid import Driven, Guided
 from softway.cluster.rank_contacts import served
 from softway.contact.impact_rule import Energy
@@ -47,9 +45,7 @@ def _of_scene(model: Model) -> Iterator[tuple[str, str]]:
 def _of_solids(model: Model) -> Iterator[tuple[str, str]]:
     for part in model.parts:
         where = f"bodies.{part.name}"
-        if not isinstance(part.internal, ElasticForce | InelasticForce):
-            yield f"{where}.material", "several materials"
-        elif isinstance(part.internal.material, Viscous):
+        if any(isinstance(law, Viscous) for law in part.materials.laws):
             yield f"{where}.material", "a material without elasticity, whose slabs Newton's method has to take over"
         if part.dilatation == "corner":
             yield f"{where}.dilatation", "'corner', whose averages reach over several cells"
@@ -69,7 +65,7 @@ def _of_contacts(model: Model) -> Iterator[tuple[str, str]]:
         yield "contacts[0].timing", "another rule than Energy, and its filter calm"
     contacts = model.contacts
     if not all(served(m) for m in (*contacts.methods, *contacts.overlap_methods)):
-        yield "contacts", 'surfaces each of which may touch any other, as with between = "all"'
+        yield "contacts", "a contact of another kind than nodes, edges, mortar and tools"
 
 
 def _of_method(method: Method) -> Iterator[tuple[str, str]]:

@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from softway.cluster.admitted import require_several
+from softway.cluster.cells.rank_mesh import local_nodes
 from softway.cluster.own_gradients import method_of_ranks, method_of_whole
-from softway.cluster.rank_mesh import local_nodes
-from softway.cluster.rank_model import held_by, rank_model
+from softway.cluster.rank_model import held_by, rank_model, without_tables
 from softway.cluster.rank_state import RankNumbers, on_all, on_rank, rank_numbers
 from softway.errors import Cancel
 from softway.marching.audit.folded_cells import WatchedCells, watched_cells
@@ -55,17 +55,17 @@ def march_on(
     """
     require_several(model, settings.method, ranks.size)
     prepared = prepare(model, replace(settings, method=method_of_whole(settings.method)), state)
-    held = held_by(model, ranks)
-    local, numbers = rank_model(model, held, ranks), rank_numbers(model, held)
+    start, ends = prepared.march_state, prepared.stepper.ends
+    numbers = rank_numbers(model, held_by(model, ranks))
+    whole = None if ranks.rank else _Whole(watched_cells(model), start.state, split_states(model, start.state))
+    model = without_tables(model)
+    del state, prepared  # what the other ranks hold of the whole
+    model = rank_model(model, numbers.held, ranks)
     asked = None if not ranks.told(cancel is not None) else lambda: bool(ranks.told(cancel is not None and cancel()))
     method = method_of_ranks(settings.method, tell=ranks.rank == 0)
-    own = stepper(local, method, settings.weight, asked, None if ranks.rank else trying)
-    own = replace(own, ends=prepared.stepper.ends)
-    start = prepared.march_state
-    begin = on_rank(replace(start, settings=replace(start.settings, method=settings.method)), numbers)
-    whole = None if ranks.rank else _Whole(watched_cells(model), start.state, split_states(model, start.state))
-    del model, state, prepared, start  # what the other ranks hold of the whole
-    for step in slabs(own, begin):
+    own = replace(stepper(model, method, settings.weight, asked, None if ranks.rank else trying), ends=ends)
+    start = on_rank(replace(start, settings=replace(start.settings, method=settings.method)), numbers)
+    for step in slabs(own, start):
         reached = _on_whole(step, whole, numbers, ranks)
         if whole is not None and reached is not None:
             whole = replace(whole, now=reached.march_state.state, before=reached.after)

@@ -10,8 +10,8 @@ import scipy.sparse as sp
 
 from softway.arrays import Array
 from softway.bodies.dof_map import NodalDofs
+from softway.cluster.cells.rank_force import stored_rows
 from softway.cluster.own_rows import OwnRows
-from softway.cluster.rank_force import stored_rows
 from softway.marching.rules.slab_rule import Method
 from softway.model.model import Model
 from softway.ranks.petsc import REMEDY, Cycle, available, multigrid

@@ -4,14 +4,18 @@ from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from softway.arrays import Array, IntArray
-from softway.cluster.rank_mesh import local_nodes
+from softway.cluster.cells.rank_mesh import local_nodes
 from softway.contact.contact_set import ContactSet
 from softway.contact.friction_rows import AreaPatch, DeclaredSurface, FrictionRows
 from softway.contact.mortar.mortar import Mortar
+from softway.contact.node_to_surface.admissible_pairs import AdmissiblePairs, Members
 from softway.contact.node_to_surface.edge_to_edge import EdgeToEdge
 from softway.contact.node_to_surface.node_to_facet import NodeToFacet
 from softway.contact.node_to_surface.node_to_tool import NodeToTool
+from softway.contact.node_to_surface.split_facets import OnSplitSurface, SplitSurface
 from softway.contact.surfaces.boundary import ContactSurface, Edges
 from softway.contact.surfaces.search_margin import SearchMargin
 from softway.contact.tangential_rows import TangentialRows
@@ -19,13 +23,13 @@ from softway.model.model import Model
 from softway.ranks.partition import Holding
 from softway.ranks.space import RankSpace
 
-METHODS = NodeToTool, NodeToFacet, EdgeToEdge, Mortar
+METHODS = NodeToTool, NodeToFacet, EdgeToEdge, Mortar, OnSplitSurface
 """Methods of contact that have local numbers."""
 
 
 def served(method: object) -> bool:
-    """True if a method has local numbers: those of two surfaces, and of a surface with a tool."""
-    return isinstance(method, METHODS) and getattr(method, "admissible", None) is None
+    """True if a method has local numbers."""
+    return isinstance(method, METHODS)
 
 
 def rank_contacts(contacts: ContactSet, held: Holding, space: RankSpace) -> ContactSet:
@@ -77,10 +81,17 @@ def _method(method: Any, held: Holding) -> Any:
             side=_surface(method.side, held),
             own=own,
             thickness=_nodal(method.thickness, held),
+            admissible=_admissible(method.admissible, held),
         )
     if isinstance(method, EdgeToEdge):
         first, second = (_edges(edges, held) for edges in (method.first, method.second))
-        return replace(method, first=first, second=second, thickness=_nodal(method.thickness, held))
+        pairs, wall = _admissible(method.admissible, held), _nodal(method.thickness, held)
+        return replace(method, first=first, second=second, thickness=wall, admissible=pairs)
+    if isinstance(method, OnSplitSurface):
+        given, (total, count) = method.surface.given, method.surface.means.shape
+        centred = replace(held, nodes=np.concatenate([held.nodes, np.arange(count, total)]))
+        surface = SplitSurface(given=_surface(given, held), count=len(held.nodes))
+        return replace(method, method=_method(method.method, centred), surface=surface)
     return replace(
         method,
         slave_facets=_facets(method.slave_facets, held),
@@ -88,6 +99,26 @@ def _method(method: Any, held: Holding) -> Any:
         thickness=_nodal(method.thickness, held),
         points=_nodal(method.points, held),
     )
+
+
+def _admissible(pairs: AdmissiblePairs | None, held: Holding) -> AdmissiblePairs | None:
+    """Pairs that may touch, on local nodes; no tie moves any of them."""
+    if pairs is None:
+        return None
+    assert pairs.glue is None
+    return AdmissiblePairs(
+        points=pairs.points[held.nodes],
+        body=pairs.body[held.nodes],
+        side=_surface(pairs.side, held),
+        members=_members(pairs.members, held),
+        apart=tuple(_members(members, held) for members in pairs.apart),
+        whole=None if pairs.whole is None else held.local(pairs.whole),
+    )
+
+
+def _members(members: Members, held: Holding) -> Members:
+    """Surfaces that may touch each other, on local nodes."""
+    return replace(members, nodes=members.nodes[held.nodes])
 
 
 def _facets(facets: Mapping[str, IntArray], held: Holding) -> dict[str, IntArray]:

@@ -10,10 +10,11 @@ from softway.bodies.assembled.nodal_loads import DeadLoads
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.dof_map import NodalDofs
 from softway.bodies.internal_force.body_force import BodyForce
+from softway.cluster.cells.pieces import Piece, pieces_of
+from softway.cluster.cells.rank_force import DeclaredForce, rank_force
+from softway.cluster.cells.rank_mesh import local_nodes, rank_mesh
 from softway.cluster.own_rows import columns, own_rows
 from softway.cluster.rank_contacts import rank_contacts, rank_friction
-from softway.cluster.rank_force import rank_force
-from softway.cluster.rank_mesh import local_nodes, rank_mesh
 from softway.meshes.mesh import Mesh
 from softway.model.model import Model
 from softway.ranks.interface import Ranks
@@ -23,8 +24,7 @@ from softway.ranks.space import RankSpace, Shares
 
 def held_by(model: Model, ranks: Ranks) -> Holding:
     """What a rank holds of a model: all nodes that may touch, and those of the rows of its own nodes, too."""
-    own = [next(iter(part.mesh.blocks.values())) for part in model.parts]
-    cells = [some + part.nodes.start for some, part in zip(own, model.parts, strict=True)]
+    cells = [piece.corners for piece in pieces_of(model)]
     centres = np.concatenate([model.points[some].mean(axis=1) for some in cells])
     rank_of = np.split(bisected(centres, ranks.size), np.cumsum([len(some) for some in cells])[:-1])
     owner = owners(cells, rank_of, model.shape[0])
@@ -37,7 +37,7 @@ def rank_model(model: Model, held: Holding, ranks: Ranks) -> Model:
     """Model of a rank from the whole model, which has to be admitted
     (:func:`~softway.cluster.admitted.require_several`).
     """
-    nodes = held.nodes
+    nodes, pieces = held.nodes, pieces_of(model)
     space, dofs = rank_space(model, held, ranks), NodalDofs(model.dofs.free[nodes])
     loads = DeadLoads(
         fields=tuple((ramp, f[nodes]) for ramp, f in model.loads.fields), shape=(len(nodes), model.shape[1])
@@ -47,7 +47,7 @@ def rank_model(model: Model, held: Holding, ranks: Ranks) -> Model:
     names = ("massive", "part_of", "load", "load_before", "weight", "displacement", "velocity", "edge")
     return replace(
         model,
-        parts=tuple(_part(model, k, held, ranks) for k in range(len(model.parts))),
+        parts=tuple(_part(model, k, pieces, held, ranks) for k in range(len(model.parts))),
         dofs=dofs,
         loads=loads,
         contacts=rank_contacts(model.contacts, held, space),
@@ -59,6 +59,13 @@ def rank_model(model: Model, held: Holding, ranks: Ranks) -> Model:
         **matrices,
         **{name: getattr(model, name)[nodes] for name in names},
     )
+
+
+def without_tables(model: Model) -> Model:
+    """Model without the tables of its cells and the matrix of all solids, of which no :func:`rank_model` is made."""
+    sections = [DeclaredForce(section=part.internal.section) for part in model.parts]
+    parts = [replace(p, internal=cast(BodyForce, own)) for p, own in zip(model.parts, sections, strict=True)]
+    return replace(model, parts=tuple(parts), total=cast(Any, None))
 
 
 def rank_space(model: Model, held: Holding, ranks: Ranks) -> RankSpace:
@@ -73,14 +80,14 @@ def rank_space(model: Model, held: Holding, ranks: Ranks) -> RankSpace:
     return RankSpace(ranks=ranks, shares=shares, solids=solids, exchange=held.exchange, unknowns=unknowns)
 
 
-def _part(model: Model, number: int, held: Holding, ranks: Ranks) -> DiscreteSolid:
+def _part(model: Model, solid: int, pieces: tuple[Piece, ...], held: Holding, ranks: Ranks) -> DiscreteSolid:
     """Solid of a rank."""
-    part = model.parts[number]
+    part = model.parts[solid]
     nodes = local_nodes(part.nodes, held)
     return replace(
         part,
-        mesh=cast(Mesh, rank_mesh(part, number, held)),
+        mesh=cast(Mesh, rank_mesh(solid, part, pieces, held)),
         nodes=nodes,
-        internal=cast(BodyForce, rank_force(part, number, held, ranks)),
+        internal=cast(BodyForce, rank_force(solid, part, pieces, held, ranks)),
         dofs=NodalDofs(model.dofs.free[held.nodes[nodes]]),
     )

@@ -64,9 +64,10 @@ class Holding:
     own
         (k,) local numbers of the nodes that it owns.
     cells
-        (e,) numbers of the cells of each solid that touch its own nodes, ascending; the first one if none does.
+        (e,) numbers of the cells of each group, such as a solid, that touch its own nodes, ascending; the first one if
+        none does.
     counted
-        (e,) of each solid, True for the cells whose energy it counts: those whose first node it owns.
+        (e,) of each group, True for the cells whose energy it counts: those whose first node it owns.
     exchange
         Exchange of the nodes with the other ranks.
     """
@@ -83,7 +84,7 @@ class Holding:
 
 
 def holding(ranks: Ranks, cells: Sequence[IntArray], owner: IntArray, seen: IntArray) -> Holding:
-    """What a rank holds of a model with the ``cells`` (e, a) of each solid, whose nodes the ranks ``owner`` (n,) own.
+    """What a rank holds of a model with the ``cells`` (e, a) of each group, whose nodes the ranks ``owner`` (n,) own.
 
     ``seen`` are nodes that it looks at besides those of its cells.
     """
@@ -101,7 +102,7 @@ def holding(ranks: Ranks, cells: Sequence[IntArray], owner: IntArray, seen: IntA
 
 
 def _touching(cells: IntArray, mine: BoolArray) -> IntArray:
-    """Cells (k,) that touch own nodes; of a solid elsewhere the first cell, which adds nothing, so that it has one."""
+    """Cells (k,) that touch own nodes; of a group elsewhere the first cell, which adds nothing, so that it has one."""
     found = np.flatnonzero(mine[cells].any(axis=1))
     return found if len(found) else np.zeros(1, np.int64)
 

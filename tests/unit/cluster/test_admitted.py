@@ -29,17 +29,7 @@ def two(between: object) -> Model:
     return build(sw.Scene(bodies={"one": solid(), "other": other}, contacts=(sw.Contact(between=between),)))
 
 
-HALVES = sw.meshes.Rectangle(size=(1.0, 1.0), cells=(4, 4)).build()
-HALVES = HALVES.with_region("a", lambda x: x[:, 0] < 0.5).with_region("b", lambda x: x[:, 0] > 0.5)
 CASES = {
-    "each with each": (
-        lambda: two("all"),
-        'contacts: runs on one rank only: surfaces each of which may touch any other, as with between = "all"',
-    ),
-    "several materials": (
-        lambda: model(mesh=HALVES, material={name: sw.NeoHookean(E=100.0, nu=0.3) for name in "ab"}),
-        "bodies.one.material: runs on one rank only: several materials",
-    ),
     "creep": (
         lambda: model(material=sw.laws.NortonHoff(K=1.0, m=0.5)),
         "bodies.one.material: runs on one rank only: a material without elasticity, whose slabs Newton's method has to "

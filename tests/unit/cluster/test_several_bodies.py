@@ -21,13 +21,23 @@ from softway.ranks.threads import in_threads
 
 GIVEN = Settings(until=0.006, step=5e-4, weight=EndPeaks(), method=sw.FixedPoint(), control=StepControl())
 SOFT = sw.NeoHookean(E=1e4, nu=0.3)
+STIFF = sw.NeoHookean(E=3e4, nu=0.3)
+PLAIN = sw.meshes.Rectangle(size=(1.0, 0.6), cells=(3, 2), origin=(0.1, 0.62))
+HALVES = PLAIN.build().with_region("core", lambda x: x[:, 0] < 0.4).with_region("skin", lambda x: x[:, 0] > 0.4)
 FLOWING = {"E": 1e4, "nu": 0.3, "yield_stress": 40.0}
 
 
-def thrown(material: object = SOFT, mu: float = 0.0, method: object = None, **more: object) -> Model:
+def thrown(
+    material: object = SOFT,
+    mu: float = 0.0,
+    method: object = None,
+    mesh: object = PLAIN,
+    between: str | None = None,
+    **more: object,
+) -> Model:
     """Block thrown aslant at a bed, which stands above an inclined floor."""
     block = sw.Solid(
-        mesh=sw.meshes.Rectangle(size=(1.0, 0.6), cells=(3, 2), origin=(0.1, 0.62)),
+        mesh=mesh,
         material=material,
         density=1.0,
         velocity=sw.bodies.Uniform(value=(0.5, -5.0)),
@@ -38,10 +48,12 @@ def thrown(material: object = SOFT, mu: float = 0.0, method: object = None, **mo
     )
     floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, -0.01), normal=(0.05, 1.0)))
     friction = sw.Coulomb(mu=mu) if mu else sw.laws.Frictionless()
-    contacts = (
+    contacts: tuple[sw.Contact, ...] = (
         sw.Contact(between=("block.bottom", "bed.top"), friction=friction, method=method),
         sw.Contact(between=("bed.bottom", "floor"), friction=friction),
     )
+    if between is not None:
+        contacts = (sw.Contact(between=between, friction=friction),)
     return build(sw.Scene(bodies={"block": block, "bed": bed, "floor": floor}, contacts=contacts))
 
 
@@ -50,9 +62,10 @@ def told(step: Step) -> list[object]:
     kinds = ("displacement", "velocity", "acceleration", "pressure", "traction", "sliding", "slip")
     numbers = [value for kind in kinds for _, value in sorted(getattr(step.after, kind).items())]
     numbers += [step.reactions[name] for name in sorted(step.reactions)]
-    for state in step.march_state.state.start.states:
-        if state is not None:
+    for solid in step.march_state.state.start.states:
+        for state in () if solid is None else (solid, *solid.regions.values()):
             numbers += [state.displacement, state.stress, state.stored, state.dissipated, *state.law.values()]
+            numbers.append(np.array([state.elastic]))
     for kind in (step.certificate, step.ledger):
         numbers += [np.asarray(getattr(kind, f.name), float).ravel() for f in fields(kind) if _numeric(kind, f.name)]
     events = [(e.kind, e.contact, e.node, e.time, e.impulse) for e in step.events]
@@ -90,6 +103,13 @@ CASES = {
     "plastic, with friction": (thrown, {"material": sw.J2(**FLOWING), "mu": 0.2}),
     "viscoplastic": (thrown, {"material": sw.J2(**FLOWING, flow=Perzyna(drag=30.0, reference=10.0, exponent=1.0))}),
     "mean dilatation": (thrown, {"material": sw.J2(**FLOWING), "dilatation": "mean"}),
+    "several materials": (thrown, {"material": {"core": SOFT, "skin": STIFF}, "mesh": HALVES}),
+    "several materials, one plastic": (
+        thrown,
+        {"material": {"core": sw.J2(**FLOWING), "skin": STIFF}, "mesh": HALVES, "mu": 0.2},
+    ),
+    "each with each": (thrown, {"between": "all"}),
+    "each with each, with friction": (thrown, {"between": "all", "mu": 0.2}),
     "a law without kernels": (thrown, {"material": sw.laws.MooneyRivlin(c10=4e3, c01=1e3, bulk=4e4)}),
 }
 
@@ -129,6 +149,23 @@ def test_a_plastic_block_flows_and_its_history_is_whole() -> None:
     energy = model.parts[0].internal.sampling.volume @ (state.stored + state.dissipated)
     assert last.ledger.energy_strain > 0.0
     assert float(energy) > 0.1
+
+
+def test_the_histories_of_several_materials_are_those_of_one_process() -> None:
+    """Stress, plastic strain and stored energy of each region, and the energy of the elastic one in the state."""
+    model = thrown(material={"core": sw.J2(**FLOWING), "skin": STIFF}, mesh=HALVES)
+    ours = over(3, model)[-1].after.memory["block"]
+    *_, last = sw.march(model, until=GIVEN.until, step=GIVEN.step, method=GIVEN.method)
+    theirs = last.after.memory["block"]
+    assert list(ours.regions) == list(theirs.regions) == ["core"]
+    mine, other = ours.regions["core"], theirs.regions["core"]
+    assert float(mine.law["plastic_strain"].max()) > 1e-3
+    assert mine.law["plastic_strain"] == pytest.approx(other.law["plastic_strain"], abs=1e-12)
+    assert mine.stress == pytest.approx(other.stress, abs=1e-9)
+    assert mine.displacement == pytest.approx(other.displacement, abs=1e-12)
+    assert ours.displacement == pytest.approx(theirs.displacement, abs=1e-12)
+    assert ours.elastic == pytest.approx(theirs.elastic, abs=1e-11)
+    assert ours.elastic > 1e-3
 
 
 @pytest.mark.parametrize("tolerance", [None, 1e-3])

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softway.arrays import Array, IntArray
+from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.discretised import DiscreteSolid
+from softway.cluster.cells.pieces import Piece, of_solid
 from softway.ranks.partition import Holding
 
 
@@ -43,14 +44,19 @@ def local_nodes(nodes: slice, held: Holding) -> slice:
     return slice(int(first), int(last))
 
 
-def rank_mesh(part: DiscreteSolid, number: int, held: Holding) -> RankMesh:
-    """Mesh of what a rank holds of the solid with this number, which has cells of one type."""
-    mesh, at = part.mesh, part.nodes.start
-    ((kind, cells),) = mesh.blocks.items()
-    nodes = held.nodes[local_nodes(part.nodes, held)] - at
+def own_mask(nodes: slice, held: Holding) -> BoolArray:
+    """True (n,) for own nodes among the local ones of a solid with these nodes of the model."""
+    local = local_nodes(nodes, held)
+    return np.isin(np.arange(local.start, local.stop), held.own, assume_unique=True)
+
+
+def rank_mesh(solid: int, part: DiscreteSolid, pieces: tuple[Piece, ...], held: Holding) -> RankMesh:
+    """Mesh of what a rank holds of the solid with this number: its cells, material after material."""
+    mesh, first = part.mesh, local_nodes(part.nodes, held).start
+    corners = [held.local(pieces[k].corners[held.cells[k]]) - first for k in of_solid(pieces, solid)]
     return RankMesh(
-        points=mesh.points[nodes],
-        blocks={kind: np.searchsorted(nodes, cells[held.cells[number]])},
+        points=mesh.points[held.nodes[local_nodes(part.nodes, held)] - part.nodes.start],
+        blocks={next(iter(mesh.blocks)): np.concatenate(corners)},
         cell_dim=mesh.cell_dim,
         shortest=mesh.edge(),
     )

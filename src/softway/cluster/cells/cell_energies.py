@@ -3,19 +3,12 @@
 import numpy as np
 
 from softway.arrays import Array
-from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.internal_force.elastic.elastic_force import ElasticForce
 from softway.bodies.internal_force.elastic.kernel_evaluation import KernelEvaluation
 from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce
 
 CellForce = ElasticForce | InelasticForce
 """Force of cells of one type with nodes of their own."""
-
-
-def of_cells(part: DiscreteSolid) -> CellForce:
-    """Force of a solid of one material."""
-    assert isinstance(part.internal, CellForce)
-    return part.internal
 
 
 def cell_energies_and_force(cells: CellForce, u: Array) -> tuple[Array, Array]:

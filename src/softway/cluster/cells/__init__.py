@@ -1,0 +1,1 @@
+"""Cells of a rank: their materials, forces and stored rows."""
