@@ -6,10 +6,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array
-from softway.kernels.fused.hooke import hooke
-from softway.kernels.fused.neo_hookean import neo_hookean
 from softway.kernels.fused.plastic import MODULI, NUMBERS, hypoelastic, j2_linear, j2_voce
 from softway.kernels.fused.slab_kinematics import midpoint
+from softway.kernels.fused.stored_energies import hooke, neo_hookean
 from softway.kernels.fused.strain_stages import green, small
 from softway.kernels.jit.compilation import Stage
 from softway.laws.bulk import J2, Hypoelastic, LinearElastic, NeoHookean, StVenantKirchhoff

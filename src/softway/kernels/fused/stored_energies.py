@@ -1,4 +1,7 @@
-"""Compressible neo-Hookean law at the points of the lanes; rows as in :mod:`softway.kernels.jit.lanes`."""
+"""Hooke's law and the compressible neo-Hookean law at the points of the lanes.
+
+Rows are those of :mod:`softway.kernels.jit.lanes`.
+"""
 
 from functools import cache
 
@@ -71,3 +74,28 @@ def _excess(j, logarithm):
     for n in range(9, 1, -1):
         series = 1.0 / n - x * series
     return x * x * series if small else j - logarithm
+
+
+@cache
+def hooke() -> Stage:
+    """``W = lambda/2 (tr E)^2 + mu E:E`` with the moduli (lambda, mu) [Pa]; infinite where the strain is ``nan``."""
+    return stage(_hooke)
+
+
+def _hooke(state, moduli) -> None:
+    s = carray(state, (NODES,))
+    bulk_part, shear = carray(moduli, (2,))
+    for k in range(LANES):
+        e, b = STRESS + k, BRIDGE + k
+        xx, yy, zz = s[e], s[e + LANES], s[e + 2 * LANES]
+        xy, yz, zx = s[e + 3 * LANES], s[e + 4 * LANES], s[e + 5 * LANES]
+        trace = xx + yy + zz
+        square = xx * xx + yy * yy + zz * zz + 2.0 * (xy * xy + yz * yz + zx * zx)
+        energy = 0.5 * bulk_part * trace * trace + shear * square
+        s[ENERGY + k] = energy if energy < np.inf else np.inf
+        for row in range(6):
+            pressure = bulk_part * trace if row < 3 else 0.0
+            s[e + row * LANES] = pressure + 2.0 * shear * s[e + row * LANES]
+            s[b + row * LANES] = 1.0 if row < 3 else 0.0
+        s[SOFT + k] = bulk_part
+        s[STIFF + k] = shear
