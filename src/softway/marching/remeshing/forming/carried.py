@@ -38,19 +38,7 @@ def carried_on(
     Memory passes by means over the overlap of the cells, velocities by projection; contact rows are found afresh, with
     forces that balance the stress.  The balances are closed in this equilibrium.
     """
-    state = split_states(old.model, now.state)
-    memories, displacement = dict(state.memory), dict(state.displacement)
-    velocity, acceleration = dict(state.velocity), dict(state.acceleration)
-    for name in reasons:
-        before, after = old.part(name), new.part(name)
-        u = state.displacement[name]
-        assert isinstance(before.internal, InelasticForce)
-        cast = recast(before, u, after)
-        memories[name] = recast_state(cast, state.memory[name], np.asarray(before.internal.sampling.volume))
-        displacement[name] = np.zeros((after.mesh.n_nodes, after.mesh.dim))
-        pair = heavy(old.model, before), heavy(new.model, after)
-        velocity[name], acceleration[name] = (moved_on(*pair, u, field[name]) for field in (velocity, acceleration))
-    state = replace(state, displacement=displacement, memory=memories, velocity=velocity, acceleration=acceleration)
+    state = _recast(old, new, split_states(old.model, now.state), reasons)
     warmth = heat_on((old.model, new.model), now.state, reasons)
     state = warmed_state(new.model, state, warmth, reasons)
     surface = _surface(old, new, now.state, reasons)
@@ -76,6 +64,22 @@ def carried_on(
     remeshed = replace(now.remeshed, meshes=new.meshes, changed=now.slabs, failed=failed)
     memory = OperatorMemory(room=now.memory.room)
     return replace(now, state=joined, account=account, memory=memory, remeshed=remeshed), exchanges
+
+
+def _recast(old: FormedScene, new: FormedScene, state: State, changed: Collection[str]) -> State:
+    """State with the memory, the velocities and the accelerations of solids on their new meshes."""
+    memories, displacement = dict(state.memory), dict(state.displacement)
+    velocity, acceleration = dict(state.velocity), dict(state.acceleration)
+    for name in changed:
+        before, after = old.part(name), new.part(name)
+        u = state.displacement[name]
+        assert isinstance(before.internal, InelasticForce)
+        cast = recast(before, u, after)
+        memories[name] = recast_state(cast, state.memory[name], np.asarray(before.internal.sampling.volume))
+        displacement[name] = np.zeros((after.mesh.n_nodes, after.mesh.dim))
+        pair = heavy(old.model, before), heavy(new.model, after)
+        velocity[name], acceleration[name] = (moved_on(*pair, u, field[name]) for field in (velocity, acceleration))
+    return replace(state, displacement=displacement, memory=memories, velocity=velocity, acceleration=acceleration)
 
 
 def _surface(old: FormedScene, new: FormedScene, now: ModelState, changed: Collection[str]) -> SurfaceForces | None:
