@@ -27,6 +27,10 @@ Changing = Mapping[str, Array | IntArray | BoolArray]
 """Arrays that a march changes, by name."""
 TOGETHER = 256
 """Number of slabs of a group; those who wait for its states wait for no more slabs."""
+COMPILED = 5000
+"""Number of slabs of a march from which loops over slabs with stops pay: they take as long to compile as 10^5 single
+slabs, which have the same bits.
+"""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -148,6 +152,8 @@ class Walk:
         """March compiled slabs: the number of those of the stretch that are over, and what the next one raises."""
         it, (first, total) = self.it, (stretch.first, stretch.total)
         if self.stops is not None:
+            if self.slabs < COMPILED:
+                return first, None
             return self.stops.flown(stretch.course, self.h, stretch.begin, first, total, stretch.events)
         tables = it.bodies, it.joints, it.springs, it.motion, self.room, stretch.course
         return int(march_rows(*tables, it.extent, self.h, first, total)), None

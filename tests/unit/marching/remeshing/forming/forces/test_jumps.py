@@ -1,4 +1,4 @@
-"""Press of case E02 to 77 per cent: what each change of the mesh does to the force, beside what the process does."""
+"""Press of case E02 to 80 per cent: what each change of the mesh does to the force, beside what the process does."""
 
 from collections.abc import Iterator
 from dataclasses import replace
@@ -15,7 +15,7 @@ from softway.marching.start.preparation import prepare
 from softway.meshes.remeshed.remesh import Remesh
 
 CELLS, GRADING = (16, 12), (3.0, 2.5)
-LEGS = (0.36, 0.03), (0.77 * HEIGHT, 0.00375)
+LEGS = (0.36, 0.03), (0.8 * HEIGHT, 0.00375)
 """Ends and slab lengths: short slabs while the flank folds onto the platen."""
 
 
@@ -38,38 +38,57 @@ def scene() -> sw.Scene:
     return replace(found, bodies={**found.bodies, "body": body}, contacts=(contact,))
 
 
-def marched() -> Iterator[tuple[sw.Step, float | None]]:
-    """Slabs, and the jump of their force relative to that of the same slab on the old mesh, which goes on; None without
-    a change.
+def going_on(last: sw.Step, until: float) -> tuple[float, int]:
+    """Mean force on the old mesh, which goes on from a slab until a time, and the nodes in contact at the end."""
+    before, impulse = last.march_state, 0.0
+    for one in slabs(prepare(last.model, before.settings, before).stepper, before):
+        impulse += force(one) * (one.after.time - one.before.time)
+        if one.after.time > until - 1e-12:
+            return impulse / (one.after.time - last.after.time), touching(one)
+    raise AssertionError("the old mesh ends before the new one")
+
+
+def touching(step: sw.Step) -> int:
+    """Number of nodes in contact."""
+    return sum(contact.count for contact in step.ledger.contacts.values())
+
+
+def marched() -> Iterator[tuple[sw.Step, tuple[float, int] | None]]:
+    """Slabs, and for those on new meshes their force relative to that on the old mesh, less one, with the number of
+    nodes that are in contact on the new one only.
     """
     last: sw.Step | None = None
     for until, step in LEGS:
         state = None if last is None else last.march_state
         for one in sw.march(scene(), until=until, step=step, state=state):
-            jump = None
+            found = None
             if one.exchanges:
                 assert last is not None
-                before = last.march_state
-                old = next(slabs(prepare(last.model, before.settings, before).stepper, before))
-                jump = force(one) / force(old) - 1.0 if old.after.time == one.after.time else np.nan
-            yield one, jump
+                old, count = going_on(last, one.after.time)
+                found = force(one) / old - 1.0, touching(one) - count
+            yield one, found
             last = one
 
 
 @pytest.mark.minutes
-def test_to_77_per_cent_with_small_jumps_of_the_force() -> None:
-    """Volume within 1e-4; jumps below 1e-3 up to 74 per cent, and below 2e-3 to the end, where the corner has sides of
-    a tenth of the height; on the way the force is that of case E02.
+def test_to_80_per_cent_with_small_jumps_of_the_force() -> None:
+    """Volume within 1e-4; jumps of 1.2e-3 at most but for the two changes at whose slab a node of the flank touches
+    one slab earlier on the new mesh.
+
+    The force of that node is less than what the process does there without a change, 2e-2.  On the way the force is
+    that of case E02.
     """
     steps, jumps = zip(*marched(), strict=True)
     count = changes(list(steps))
-    assert len(count) >= 5
-    assert steps[-1].after.time == pytest.approx(0.77 * HEIGHT)
+    assert len(count) >= 20
+    assert steps[-1].after.time == pytest.approx(0.8 * HEIGHT)
     assert volume(steps[-1]) == pytest.approx(np.pi * HEIGHT, rel=1e-4)
     assert sum(abs(steps[k].exchanges["body"].volume) for k in count) < 1e-12
-    found = [(one.after.time / HEIGHT, abs(jump)) for one, jump in zip(steps, jumps, strict=True) if jump is not None]
-    assert max(jump for reduction, jump in found if reduction < 0.745 and np.isfinite(jump)) < 1e-3
-    assert max(jump for _, jump in found if np.isfinite(jump)) < 2e-3
+    found = [one for one in jumps if one is not None]
+    earlier = [abs(jump) for jump, more in found if more > 0]
+    assert max(abs(jump) for jump, more in found if more <= 0) < 1.2e-3
+    assert len(earlier) <= 3
+    assert max(earlier, default=0.0) < 6e-3
     table = np.array(sheet("E02")["reference"]["fine_12x10x24"])
     early = [one for one in steps[1:] if one.after.time < 0.3 * HEIGHT]
     middle = np.array([0.5 * (one.before.time + one.after.time) for one in early]) / HEIGHT
