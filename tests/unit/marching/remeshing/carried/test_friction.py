@@ -145,10 +145,12 @@ def test_a_block_on_a_slope_stays(levels: tuple[int, int]) -> None:
 def test_totals_on_a_flat_surface() -> None:
     total = np.array([[3.0, 0.0]])
     one = SurfaceForces(
+        groups=np.array([0]),
         traction=np.array([[[1.0, 0.0], [2.0, 0.0]]]),
         closed=np.ones((1, 2)),
         sliding=np.zeros((1, 2)),
         slip=np.zeros((1, 2, 2)),
+        level=np.ones((1, 2)),
         total=total,
     )
     halves = sp.csr_array(np.array([[1.0, 0.0], [0.0, 1.0], [0.5, 0.5]]))
