@@ -5,12 +5,13 @@ value.  The motion is the change of the value since t = 0.
 """
 
 from dataclasses import dataclass, field
+from typing import Annotated
 
 import numpy as np
 
 from softway.arrays import Array
 from softway.errors import InputError
-from softway.units import Pure, Radian, Second
+from softway.units import PerSecond, Radian, Second
 
 LONG_AGO = -1e300
 """Time from which a law rests before its first instant [s]."""
@@ -159,7 +160,7 @@ class Sine:
     """
 
     amplitude: float
-    frequency: Pure
+    frequency: PerSecond
     phase: Radian = 0.0
     pieces: Array = field(init=False, repr=False, compare=False)
 
@@ -240,7 +241,7 @@ class RatePolyline:
     """
 
     times: tuple[Second, ...]
-    rates: tuple[float, ...]
+    rates: tuple[Annotated[float, "*/s"], ...]
     pieces: Array = field(init=False, repr=False, compare=False)
 
     def __post_init__(self) -> None:
@@ -259,6 +260,8 @@ class RatePolyline:
 
 
 MotionLaw = Spline | SmoothSteps | Sine | Haversine | RatePolyline
+Travel = Annotated[MotionLaw, "m"]
+Turn = Annotated[MotionLaw, "rad"]
 
 
 def _points(times: tuple[float, ...], points: tuple[float, ...], name: str = "points") -> tuple[Array, Array]:

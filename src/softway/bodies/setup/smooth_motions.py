@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from softway.bodies.setup.motion_laws import MotionLaw, value_and_rate
+from softway.bodies.setup.motion_laws import MotionLaw, Travel, Turn, value_and_rate
 from softway.bodies.setup.pose import Pose, require_axis, turned_about, vector
 from softway.errors import InputError
 from softway.units import Metre, Pure
@@ -30,7 +30,7 @@ class Sliding:
     """
 
     direction: tuple[Pure, ...]
-    travel: MotionLaw
+    travel: Travel
 
     def __post_init__(self) -> None:
         if not np.linalg.norm(vector("direction", self.direction)) > 0.0:
@@ -53,10 +53,12 @@ class Swinging:
 
     Parameters
     ----------
-    point, axis
-        As for :class:`Turning`.
+    point
+        Point on the axis [m].
     angle
         Angle since t = 0 [rad] as a function of time.
+    axis
+        Direction of the axis, right-hand rule; empty in 2D, where a positive angle turns x to y.
 
     Examples
     --------
@@ -67,7 +69,7 @@ class Swinging:
     """
 
     point: tuple[Metre, ...]
-    angle: MotionLaw
+    angle: Turn
     axis: tuple[Pure, ...] = ()
 
     def __post_init__(self) -> None:

@@ -6,7 +6,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
-from softway.bodies.setup.motion_laws import MotionLaw, value_and_rate
+from softway.bodies.setup.motion_laws import Travel, value_and_rate
 from softway.errors import InputError
 from softway.units import MetrePerSecond, Pure, Second
 
@@ -53,8 +53,13 @@ class Driven:
 
     Parameters
     ----------
-    on, components, direction
-        As for :class:`Fixed`.
+    on
+        Tag of the nodes.
+    components
+        Letters out of ``x``, ``y``, ``z``; or ``all``.
+    direction
+        Direction of any length along which the nodes are moved, in place of components; they are free perpendicular to
+        it.  ``normal``: that of the side, which the tag is of, at each node of the undeformed body.
     velocity
         Velocity of each of the components, or along the direction [m/s]; with ``times`` its values at these instants,
         linear in between and constant outside.
@@ -120,8 +125,13 @@ class Guided:
 
     Parameters
     ----------
-    on, components, direction
-        As for :class:`~softway.Fixed`.
+    on
+        Tag of the nodes.
+    components
+        Letters out of ``x``, ``y``, ``z``; or ``all``.
+    direction
+        Direction of any length along which the nodes are moved, in place of components; they are free perpendicular to
+        it.  ``normal``: that of the side, which the tag is of, at each node of the undeformed body.
     travel
         Displacement of each of the components, or along the direction, since t = 0 [m] as a function of time.
 
@@ -135,7 +145,7 @@ class Guided:
 
     on: str
     components: str = "all"
-    travel: MotionLaw
+    travel: Travel
     direction: Direction = ()
 
     def __post_init__(self) -> None:

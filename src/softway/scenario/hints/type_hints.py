@@ -49,11 +49,13 @@ def combined(unit: str, outer: str | None) -> str:
 
     Examples
     --------
-    >>> combined("*/m", "m/s"), combined("*/m", "m"), combined("Pa", "m")
-    ('1/s', '', 'Pa')
+    >>> combined("*/m", "m/s"), combined("*/m", "m"), combined("*/s", None), combined("Pa", "m")
+    ('1/s', '', '', 'Pa')
     """
-    if "*" not in unit or outer is None:
+    if "*" not in unit:
         return unit
+    if outer is None:
+        return ""
     return {"m": {"*/m": ""}, "m/s": {"*/m": "1/s"}}.get(outer, {}).get(unit, unit.replace("*", outer))
 
 

@@ -14,6 +14,8 @@ from softway.scenario.class_index import classes, keys
         ("density", ["key", "Solid", "kg/m^3"]),
         ("copies", ["key of bodies", "at and keys", "lattice"]),
         ("sweep", ["command", "every combination"]),
+        ("coulomb", ["Coulomb  kind"]),
+        ("Ring", ["Inner radius [m].", "quad4"]),
     ],
 )
 def test_what_is_told(name: str, told: list[str], capsys: pytest.CaptureFixture[str]) -> None:

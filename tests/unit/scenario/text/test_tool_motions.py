@@ -1,5 +1,8 @@
 """Smooth motions of tools in scenario files: every law, along a line and about an axis, in a run without inertia."""
 
+import math
+from typing import Any
+
 import pytest
 
 import softway as sw
@@ -60,3 +63,36 @@ def test_a_tool_turns_by_the_law(law: str) -> None:
     ram = scenario.bodies["ram"]
     assert isinstance(ram, sw.Tool) and ram.motion == sw.bodies.Swinging(point=(0.0, 5.0), angle=LAWS[law])
     assert sw.loads(sw.dumps(scenario)) == scenario
+
+
+def _moved(motion: str) -> Any:
+    """Motion of the ram that a text describes."""
+    ram: Any = sw.loads(TEXT.format(motion=motion)).bodies["ram"]
+    return ram.motion
+
+
+def test_values_of_a_law_have_the_unit_of_what_moves() -> None:
+    law = "{{ kind = 'SmoothSteps', times = [0, '500 ms'], points = [0, '{value}'] }}"
+    along = f"{{ kind = 'Sliding', direction = [0.0, 1.0], travel = {law.format(value='25 mm')} }}"
+    about = f"{{ kind = 'Swinging', point = [0.0, 5.0], angle = {law.format(value='90 deg')} }}"
+    assert _moved(along).travel.points == pytest.approx((0.0, 0.025))
+    assert _moved(about).angle.points == pytest.approx((0.0, math.pi / 2))
+    with pytest.raises(sw.InputError, match="expected a length"):
+        _moved(along.replace("25 mm", "25 ms"))
+
+
+@pytest.mark.parametrize(
+    ("law", "same"),
+    [
+        (
+            "{ kind = 'RatePolyline', times = [0.0, 1.0], rates = [0.0, '36 km/h'] }",
+            sw.bodies.RatePolyline(times=(0.0, 1.0), rates=(0.0, 10.0)),
+        ),
+        (
+            "{ kind = 'Sine', amplitude = '2 m', frequency = '50 Hz', phase = '0 deg' }",
+            sw.bodies.Sine(amplitude=2.0, frequency=50.0),
+        ),
+    ],
+)
+def test_rates_and_frequencies_have_units(law: str, same: MotionLaw) -> None:
+    assert _moved(f"{{ kind = 'Sliding', direction = [0.0, 1.0], travel = {law} }}").travel == same

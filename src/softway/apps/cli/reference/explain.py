@@ -3,7 +3,7 @@
 import difflib
 import inspect
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Set
 from dataclasses import MISSING
 from typing import Any
 
@@ -41,13 +41,9 @@ def told(name: str, commands: Mapping[str, Callable[..., Any] | None], console: 
     InputError
         If the name is unknown; the remedy lists the closest names.
     """
+    name = _known(name, {cls.__name__ for cls in classes()} | keys().keys() | commands.keys() | FILE_KEYS.keys())
     kinds = [cls for cls in classes() if cls.__name__ == name]
     owners = keys().get(name, ())
-    if not kinds and not owners and name not in commands and name not in FILE_KEYS:
-        known = sorted({cls.__name__ for cls in classes()} | keys().keys() | commands.keys() | FILE_KEYS.keys())
-        lower = {word.lower(): word for word in known}
-        close = [lower[word] for word in difflib.get_close_matches(name.lower(), lower, n=3, cutoff=0.5)]
-        raise InputError("NAME", f"no kind, key or command {name!r}", ", ".join(close) or "Solid, Contact, time, run")
     if name in commands:
         _head(f"softway {name}", "command", console)
         console.print(escape(plain(inspect.getdoc(commands[name]) or "")), highlight=False)
@@ -59,6 +55,15 @@ def told(name: str, commands: Mapping[str, Callable[..., Any] | None], console: 
     if owners:
         _head(name, "key", console)
         console.print(_grid([(cls, name) for cls in owners], of=True))
+
+
+def _known(name: str, words: Set[str]) -> str:
+    """The word that is meant by a name, of which capital letters do not count where no word has them."""
+    lower = {word.lower(): word for word in sorted(words)}
+    if name not in words and name.lower() not in lower:
+        close = [lower[word] for word in difflib.get_close_matches(name.lower(), lower, n=3, cutoff=0.5)]
+        raise InputError("NAME", f"no kind, key or command {name!r}", ", ".join(close) or "Solid, Contact, time, run")
+    return name if name in words else lower[name.lower()]
 
 
 def _kind(cls: type, console: Console) -> None:
