@@ -30,7 +30,7 @@ nitpick_ignore_regex = [  # names of types that are no part of the reference
         "py:class",
         r"(Int|Bool)?Array|ArrayLike|Second|Precision|Cancel|Watch|TimeWeight|Method|LawName|Law|Part|Units|Entrant",
     ),
-    ("py:class", r"Side|BallGroup|CheckedRigid|CheckedHeat|Body|MotionLaw|Quality|Ranks|StepGroup"),
+    ("py:class", r"Side|BallGroup|CheckedRigid|CheckedHeat|Body|MotionLaw|Travel|Turn|Quality|Ranks|StepGroup"),
     ("py:class", r"Records|Modules|ImpactRule|TryWatch|Tell|MechanismWatch|Spin|Velocity|Direction|NoneType|npt\..*"),
 ]
 
