@@ -122,6 +122,13 @@ def called(function: Callable[..., Any]) -> Callable[..., Any]:
     return njit(**(_PART | {"forceinline": False}), **_UNCOUNTED)(function)
 
 
+def merged(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Make a function as ``called``, whose statements are put into its callers before these are compiled: for parts of
+    one kernel.  Numba optimises a function again in each function that calls it, and in the callers of these.
+    """
+    return njit(**(_PART | {"forceinline": False, "inline": "always"}), **_UNCOUNTED)(function)
+
+
 def _kept(compiler: Callable[..., Any], function: Callable[..., Any], options: dict[str, Any]) -> Any:
     """Compile a function, with a cache on disk if there is a writable folder."""
     function.__qualname__ = function.__qualname__.removesuffix(_ENDING) + _ENDING  # safe if two threads do this at once

@@ -64,8 +64,8 @@ class Operator(NamedTuple):
 
 class Course(NamedTuple):
     """States of successive slabs: ``time`` (s + 1,); ``u``, ``v``, ``slope`` and ``force`` (s + 1, N), ``pressure``
-    (s + 1, m), ``energy`` (s + 1, parts); ``support`` (s, N), without a row where nothing is supported; ``sums``
-    (s, SUMS) and, of the contacts, ``met`` (s, contacts, MET).
+    (s + 1, m), ``energy`` (s + 1, parts); ``scalar`` (s, parts) of the energy balance; ``support`` (s, N), without a
+    row where nothing is supported; ``sums`` (s, SUMS) and, of the contacts, ``met`` (s, contacts, MET).
     """
 
     time: Array
@@ -75,6 +75,7 @@ class Course(NamedTuple):
     force: Array
     pressure: Array
     energy: Array
+    scalar: Array
     support: Array
     sums: Array
     met: Array
@@ -134,6 +135,7 @@ course_at = table(
     force=ROWS,
     pressure=ROWS,
     energy=ROWS,
+    scalar=ROWS,
     support=ROWS,
     sums=ROWS,
     met=BLOCKS,

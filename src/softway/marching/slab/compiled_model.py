@@ -116,21 +116,14 @@ def compiled_model(stepper: Stepper, settings: Settings, span: float) -> Compile
     matrix = sp.csr_array(
         model.inertia_and_stiffness(np.zeros(model.shape), 0.5 * span**2 * moments(settings.weight)[1])
     )
-    if not matrix.shape[0]:
+    order = band_order(matrix)
+    if order is None:
         return None
-    order = np.asarray(reverse_cuthill_mckee(matrix, symmetric_mode=True), np.int64)
-    place = np.empty(len(order), np.int64)
-    place[order] = np.arange(len(order))
-    entries = sp.tril(matrix[order][:, order], format="coo")
-    i, j = entries.coords
-    width = int((i - j).max(initial=0)) + 1
-    if width * len(order) > LARGEST:
+    found = banded_factor(matrix, order)
+    if found is None:
         return None
-    band, lower, pivot = np.zeros((len(order), width)), np.zeros((len(order), width)), np.zeros(len(order))
-    band[i, i - j] = entries.data
-    if not factor(band, lower, pivot):
-        return None
-    bodies, rows = _bodies(model, place), _rows(model, settings)
+    lower, pivot = found
+    bodies, rows = bodies_of(model, order.place), rows_of(model, settings)
     if bodies is None:
         return None
     assert isinstance(stepper.method, FixedPoint)
@@ -140,7 +133,37 @@ def compiled_model(stepper: Stepper, settings: Settings, span: float) -> Compile
     )
 
 
-def _bodies(model: Model, place: IntArray) -> Bodies | None:
+@dataclass(frozen=True, slots=True, eq=False)
+class BandOrder:
+    """Places (f,) of the unknowns in a band with ``width`` diagonals, after the ordering of Cuthill and McKee."""
+
+    place: IntArray
+    width: int
+
+
+def band_order(matrix: sp.csr_array) -> BandOrder | None:
+    """Order of a symmetric matrix (f, f) in a band; None if it is empty, or the band too large."""
+    if not matrix.shape[0]:
+        return None
+    order = np.asarray(reverse_cuthill_mckee(matrix, symmetric_mode=True), np.int64)
+    place = np.empty(len(order), np.int64)
+    place[order] = np.arange(len(order))
+    i, j = sp.coo_array(matrix).coords
+    width = int(np.abs(place[i] - place[j]).max(initial=0)) + 1
+    return None if width * len(order) > LARGEST else BandOrder(place, width)
+
+
+def banded_factor(matrix: sp.csr_array, order: BandOrder) -> tuple[Array, Array] | None:
+    """Factor in a band: ``lower`` (f, w + 1) and ``pivot`` (f,); None if the matrix is not positive definite."""
+    entries = sp.coo_array(matrix)
+    i, j = (order.place[c] for c in entries.coords)
+    below, shape = i >= j, (matrix.shape[0], order.width)
+    band, lower, pivot = np.zeros(shape), np.zeros(shape), np.zeros(shape[0])
+    band[i[below], (i - j)[below]] = entries.data[below]
+    return (lower, pivot) if factor(band, lower, pivot) else None
+
+
+def bodies_of(model: Model, place: IntArray) -> Bodies | None:
     """Arrays of the solids; ``place`` (f,) are the places of the unknowns in the band.
 
     None where translations cause forces.
@@ -177,7 +200,7 @@ def _bodies(model: Model, place: IntArray) -> Bodies | None:
     )
 
 
-def _rows(model: Model, settings: Settings) -> Rows:
+def rows_of(model: Model, settings: Settings) -> Rows:
     """Arrays of the contact rows."""
     rows = model.contacts.rest(np.zeros(model.shape), 0.0).start(np.zeros(model.shape))
     gradient = sp.csr_array(rows.gradient)
