@@ -22,6 +22,7 @@ _PART = _EXACT | {"forceinline": True, "no_cfunc_wrapper": True, "no_cpython_wra
 # Numba counts references to arrays by atomic operations, which take longer than a slab of a small mechanism.
 _UNCOUNTED: dict[str, Any] = {"_nrt": False}
 _POINT = types.void(types.CPointer(types.float64), types.CPointer(types.float64))
+_TASK = types.void(types.int64)
 _SHARED = (
     "jit/by_address.py",
     "jit/compilation.py",
@@ -75,6 +76,11 @@ _ENDING = f"_{sha256(_SOURCES).hexdigest()[:12]}"
 def stage(function: Callable[..., None]) -> Stage:
     """Compile a stage, which kernels call by its address, and cache it on disk."""
     return _kept(lambda **options: cfunc(_POINT, **options), function, _EXACT)
+
+
+def task(function: Callable[..., None]) -> Stage:
+    """Compile a function of the address of a table, which kernels call by its own address, and cache it on disk."""
+    return _kept(lambda **options: cfunc(_TASK, **options), function, _EXACT)
 
 
 def kernel(function: Callable[..., Any]) -> Callable[..., Any]:

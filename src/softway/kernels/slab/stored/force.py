@@ -1,7 +1,13 @@
-"""Internal forces of solids with stored energies, by the fused kernels."""
+"""Internal forces of solids with stored energies, by the fused kernels.
+
+They are called by their address: a kernel that calls a function contains its code, and compiles it again.
+"""
+
+from functools import cache
 
 from softway.kernels.fused.elastic import force as fused
-from softway.kernels.jit.compilation import called
+from softway.kernels.jit.by_address import call_with
+from softway.kernels.jit.compilation import Stage, called, task
 from softway.kernels.slab.stored.tables import cells_at, stored_at
 
 
@@ -10,46 +16,41 @@ def stored_forces(first, d, solids, u, force, energy):
     """Set the internal force (N,) and the energy (parts,) of solids with the ``first`` nodes (parts + 1,)."""
     for part in range(len(first) - 1):
         it = stored_at(solids[part])
-        start, n, rows = first[part], first[part + 1] - first[part], len(it.u)
-        for i in range(rows):
-            k = i if i < n else it.extra[i - n] if i + 1 < rows else -1
+        start, n = first[part], first[part + 1] - first[part]
+        for i in range(n):
             for a in range(d):
-                it.u[i, a] = u[(start + k) * d + a] if k >= 0 else 0.0
-                it.out[i, a] = 0.0
-        total = 0.0
-        for k in range(len(it.cells)):
-            total += _of_cells(it.cells[k], it.u, it.out)
-        for k in range(len(it.extra)):
-            for a in range(d):
-                it.out[it.extra[k], a] += it.out[n + k, a]
+                it.u[i, a] = u[(start + i) * d + a]
+        call_with(it.forces, solids[part])
         for i in range(n):
             for a in range(d):
                 force[(start + i) * d + a] = it.out[i, a]
-        energy[part] = total
+        energy[part] = it.energy[0]
 
 
-@called
-def _of_cells(place, u, out):
-    """Add the forces of cells of one type to ``out`` (n, d); their energy."""
-    it, total = cells_at(place), 0.0
-    it.energy[:] = 0.0
-    fused(
-        it.measure,
-        it.law,
-        it.moduli,
-        it.rows,
-        it.table,
-        it.geometry,
-        it.starts,
-        0,
-        len(it.starts) - 1,
-        u,
-        out,
-        it.energy,
-    )
-    for block in range(len(it.energy)):
-        some = 0.0
-        for lane in range(it.energy.shape[1]):
-            some += it.energy[block, lane]
-        total += some
-    return total
+@cache
+def solid_forces() -> Stage:
+    """Function of the address of a solid, that computes its forces and its energy."""
+    return task(_solid_forces)
+
+
+def _solid_forces(place):
+    it = stored_at(place)
+    n, d = len(it.u) - len(it.extra) - 1, it.u.shape[1]
+    for k in range(len(it.extra)):
+        for a in range(d):
+            it.u[n + k, a] = it.u[it.extra[k], a]
+    it.out[:] = 0.0
+    it.energy[0] = 0.0
+    for k in range(len(it.cells)):
+        c = cells_at(it.cells[k])
+        c.energy[:] = 0.0
+        parts = len(c.starts) - 1
+        fused(c.measure, c.law, c.moduli, c.rows, c.table, c.geometry, c.starts, 0, parts, it.u, it.out, c.energy)
+        for block in range(len(c.energy)):
+            some = 0.0
+            for lane in range(c.energy.shape[1]):
+                some += c.energy[block, lane]
+            it.energy[0] += some
+    for k in range(len(it.extra)):
+        for a in range(d):
+            it.out[it.extra[k], a] += it.out[n + k, a]

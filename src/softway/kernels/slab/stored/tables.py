@@ -2,13 +2,8 @@
 
 from typing import NamedTuple
 
-from numba import types
-
 from softway.arrays import Array, IntArray
-from softway.kernels.jit.by_address import BLOCKS, FLAGS, NUMBERS, ROWS, WHOLE, WHOLES, table
-
-PLACES = types.uint32[:, :, ::1]
-"""Kind of the rows of nodal arrays of the cells."""
+from softway.kernels.jit.by_address import BLOCKS, FLAGS, LANES, NUMBERS, ROWS, WHOLE, WHOLES, table
 
 
 class Cells(NamedTuple):
@@ -27,14 +22,17 @@ class Cells(NamedTuple):
 
 
 class Stored(NamedTuple):
-    """A solid: the addresses of its tables ``cells`` (k,), the node of each of its ``extra`` rows (h,), and work space
-    ``u`` and ``out`` (n + h + 1, d) for displacements and forces, whose last row belongs to lanes without a cell.
+    """A solid: the address of the function of its ``forces``, those of its tables ``cells`` (k,), the node of each of
+    its ``extra`` rows (h,), and work space ``u`` and ``out`` (n + h + 1, d) for displacements and forces, whose last row
+    belongs to lanes without a cell, and ``energy`` (1,).
     """
 
+    forces: int
     cells: IntArray
     extra: IntArray
     u: Array
     out: Array
+    energy: Array
 
 
 class Band(NamedTuple):
@@ -91,13 +89,13 @@ cells_at = table(
     measure=WHOLE,
     law=WHOLE,
     moduli=NUMBERS,
-    rows=PLACES,
+    rows=LANES,
     table=BLOCKS,
     geometry=BLOCKS,
     starts=WHOLES,
     energy=ROWS,
 )
-stored_at = table("Stored", cells=WHOLES, extra=WHOLES, u=ROWS, out=ROWS)
+stored_at = table("Stored", forces=WHOLE, cells=WHOLES, extra=WHOLES, u=ROWS, out=ROWS, energy=NUMBERS)
 band_at = table("Band", down=ROWS, up=ROWS, pivot=NUMBERS)
 search_at = table(
     "Search",

@@ -7,7 +7,7 @@ from typing import NamedTuple, cast
 import numpy as np
 import scipy.sparse as sp
 
-from softway.arrays import Array, BoolArray, IntArray
+from softway.arrays import BoolArray, IntArray
 from softway.bodies.assembled.vector_space import LocalSpace
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.dof_map import NodalDofs
@@ -18,6 +18,7 @@ from softway.bodies.internal_force.slab_average import Weighted
 from softway.kernels.jit.by_address import packed
 from softway.kernels.jit.lanes import LANES
 from softway.kernels.slab.stored.band import spread_factor
+from softway.kernels.slab.stored.force import solid_forces
 from softway.kernels.slab.stored.tables import Band, Cells, Stored
 from softway.kernels.slab.tables import Bodies, Operator, Rows
 from softway.marching.audit.folded_cells import WatchedCells, watched_cells
@@ -181,15 +182,24 @@ def _fused(part: DiscreteSolid) -> bool:
 
 def _stored(model: Model) -> Tables:
     """Tables of the solids."""
-    solids, kept = list[NamedTuple](), list[Tables]()
+    solids, kept, forces = list[NamedTuple](), list[object](), solid_forces()
     for part in model.parts:
         work = cast(KernelEvaluation, cast(ElasticForce, part.internal).work)
         cells = Tables.of(_cells(work))
         shape = part.mesh.n_nodes + len(work.cells.extra) + 1, part.mesh.dim
         extra = np.ascontiguousarray(work.cells.extra, np.int64)
-        solids.append(Stored(cells=cells.places, extra=extra, u=np.zeros(shape), out=np.zeros(shape)))
+        solids.append(
+            Stored(
+                forces=forces.address,
+                cells=cells.places,
+                extra=extra,
+                u=np.zeros(shape),
+                out=np.zeros(shape),
+                energy=np.zeros(1),
+            )
+        )
         kept.append(cells)
-    return Tables.of(solids, kept)
+    return Tables.of(solids, (kept, forces))
 
 
 def _cells(work: KernelEvaluation) -> Iterator[Cells]:
