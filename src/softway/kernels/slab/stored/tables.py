@@ -2,7 +2,7 @@
 
 from typing import NamedTuple
 
-from softway.arrays import Array, IntArray
+from softway.arrays import Array, BoolArray, IntArray
 from softway.kernels.jit.by_address import BLOCKS, FLAGS, LANES, NUMBERS, ROWS, WHOLE, WHOLES, table
 
 
@@ -69,10 +69,13 @@ class Search(NamedTuple):
 
 
 class Turning(NamedTuple):
-    """Sampling of the rotation of nodes since the operator was made: sparse rows ``start`` (n + 1,), ``node`` (z,) and
-    ``slope`` (z, d) of the mean derivatives around a node, the inverse ``inverse`` (n, d, d) of the deformation
-    gradients where the operator was made and these themselves, ``before`` (n, d, d); nodes that are ``free`` (n,) of
-    supports turn.  ``limits`` (1,) is the root mean square of ``R - I`` below which the operator is not turned.
+    """Rotation of n nodes since the operator was made.
+
+    Sparse rows ``start`` (n + 1,), ``node`` (z,) and ``slope`` (z, d) give the mean derivatives around a node;
+    ``before`` (n, d, d) are the deformation gradients where the operator was made, ``inverse`` their inverses.  Nodes
+    that are ``free`` (n,) of supports turn by ``rotation`` (n, d, d).  ``limit`` (1,) is the root mean square of
+    ``R - I`` below which nothing turns, and ``state`` (2,) tells if closed rows are solved for in axes that turn, and
+    if these have.  ``compliance`` (k, k) and ``size`` (k,) are work space.
     """
 
     start: IntArray
@@ -80,8 +83,12 @@ class Turning(NamedTuple):
     slope: Array
     before: Array
     inverse: Array
-    free: Array
-    limits: Array
+    free: BoolArray
+    rotation: Array
+    limit: Array
+    state: IntArray
+    compliance: Array
+    size: Array
 
 
 cells_at = table(
@@ -112,7 +119,18 @@ search_at = table(
     taken=WHOLES,
 )
 turning_at = table(
-    "Turning", start=WHOLES, node=WHOLES, slope=ROWS, before=BLOCKS, inverse=BLOCKS, free=FLAGS, limits=NUMBERS
+    "Turning",
+    start=WHOLES,
+    node=WHOLES,
+    slope=ROWS,
+    before=BLOCKS,
+    inverse=BLOCKS,
+    free=FLAGS,
+    rotation=BLOCKS,
+    limit=NUMBERS,
+    state=WHOLES,
+    compliance=ROWS,
+    size=NUMBERS,
 )
 """The tables at addresses, for kernels."""
 
@@ -129,3 +147,6 @@ SLABS, TOTAL, LEAST, BEFORE, LATEST, DEAR = range(6)
 """Iterations since the operator was made: number of slabs, of their iterations, least of a slab, those of the last two
 slabs, and 1 if the next slab needs a new operator."""
 TAKEN = 6
+MIXED, NOW = range(2)
+STRAIGHT, TURNED, UNKNOWN = range(3)
+"""Entries of ``Turning.state``, and what has happened to the axes: nothing, a rotation, or one near its limit."""

@@ -7,7 +7,7 @@ from typing import NamedTuple, cast
 import numpy as np
 import scipy.sparse as sp
 
-from softway.arrays import BoolArray, IntArray
+from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.assembled.vector_space import LocalSpace
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.dof_map import NodalDofs
@@ -19,7 +19,7 @@ from softway.kernels.jit.by_address import packed
 from softway.kernels.jit.lanes import LANES
 from softway.kernels.slab.stored.band import spread_factor
 from softway.kernels.slab.stored.force import solid_forces
-from softway.kernels.slab.stored.tables import Band, Cells, Stored
+from softway.kernels.slab.stored.tables import Band, Cells, Stored, Turning
 from softway.kernels.slab.tables import Bodies, Operator, Rows
 from softway.marching.audit.folded_cells import WatchedCells, watched_cells
 from softway.marching.rules.equilibrated import EndForceContact, Equilibrated
@@ -37,7 +37,9 @@ from softway.model.model import Model
 from softway.model.time_weight import EndPeaks, moments
 from softway.solve.methods.fixed_point import FixedPoint
 from softway.solve.operators.factored import Factored
+from softway.solve.operators.nodal_rotation import SMALL, NodalRotation, nodal_rotation
 from softway.solve.operators.operator_memory import OperatorOrigin
+from softway.solve.operators.operator_refresh import WORTH
 
 SLABS = 1000
 """Number of slabs of a march from which compiled ones pay: the others take less than the compilation of the kernels."""
@@ -60,10 +62,13 @@ class Tables:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FrozenFactor:
-    """Factor of an operator in a band: as for linear laws, with the operators of closed rows, and for solutions."""
+    """Factor of an operator in a band: as for linear laws, with the operators of closed rows, and for solutions; and the
+    deformation ``gradient`` (n, d, d) at the nodes where it was made.
+    """
 
     compiled: CompiledModel
     band: Band
+    gradient: Array
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -71,7 +76,7 @@ class StoredModel:
     """Arrays of a model with stored energies for slabs of the length ``span`` [s].
 
     ``solids`` are the tables of the solids, ``order`` that of the band, ``watched`` the cells whose shapes are looked
-    at.  ``factors`` keeps that of the last operator; it depends on the place where that was made only.
+    at, ``turning`` and ``slopes`` the sampling of rotations.  ``factors`` keeps that of the last operator; it depends on the place where that was made only.
     """
 
     model: Model
@@ -81,6 +86,8 @@ class StoredModel:
     solids: Tables
     order: BandOrder
     watched: WatchedCells
+    turning: NodalRotation
+    slopes: tuple[IntArray, IntArray, Array]
     span: float
     factors: dict[bytes, FrozenFactor | None] = field(default_factory=dict)
 
@@ -92,11 +99,37 @@ class StoredModel:
             self.factors[key] = self._made(origin)
         return self.factors[key]
 
-    def operator(self, origin: OperatorOrigin, closed: BoolArray) -> tuple[Band, Operator] | None:
-        """Factor and operator with the rows ``closed`` (m,); None if there is none."""
+    def operator(self, origin: OperatorOrigin, closed: BoolArray, mixed: bool) -> tuple[Band, Operator, Turning] | None:
+        """Factor, operator with the rows ``closed`` (m,), and its rotation; None if there is none.
+
+        Rows are solved for in axes that turn where they are ``mixed``.
+        """
         factor = self.factor(origin)
         operator = None if factor is None else factor.compiled.operator(closed)
-        return None if factor is None or operator is None else (factor.band, operator)
+        if factor is None or operator is None:
+            return None
+        if mixed:
+            answer, inverse = np.zeros_like(operator.answer), np.zeros_like(operator.inverse)
+            operator = operator._replace(answer=answer, inverse=inverse)
+        return factor.band, operator, self._turning(factor, len(operator.active), mixed)
+
+    def _turning(self, factor: FrozenFactor, closed: int, mixed: bool) -> Turning:
+        """Rotation of the operator, with room for closed rows."""
+        start, node, slope = self.slopes
+        constant = not mixed and bool(self.rows.move.any())
+        return Turning(
+            start=start,
+            node=node,
+            slope=slope,
+            before=factor.gradient,
+            inverse=np.ascontiguousarray(np.linalg.inv(factor.gradient)),
+            free=np.ascontiguousarray(self.model.dofs.free.all(axis=1)),
+            rotation=np.zeros(factor.gradient.shape),
+            limit=np.array([WORTH if constant else SMALL]),
+            state=np.array([mixed, 0], np.int64),
+            compliance=np.zeros((closed, closed)),
+            size=np.zeros(closed),
+        )
 
     def _made(self, origin: OperatorOrigin) -> FrozenFactor | None:
         found = banded_factor(sp.csr_array(origin.stiffness(self.model).operator(origin.at)), self.order)
@@ -114,7 +147,7 @@ class StoredModel:
             pivot=pivot,
             tolerance=self.method.tolerance,
         )
-        return FrozenFactor(compiled, Band(down=down, up=up, pivot=pivot))
+        return FrozenFactor(compiled, Band(down=down, up=up, pivot=pivot), self.turning.gradient(origin.at))
 
 
 def stored_model(stepper: Stepper, settings: Settings, span: float) -> StoredModel | None:
@@ -128,7 +161,7 @@ def stored_model(stepper: Stepper, settings: Settings, span: float) -> StoredMod
     bodies = None if order is None else bodies_of(model, order.place)
     if order is None or bodies is None:
         return None
-    rows = rows_of(model, settings)
+    rows, turning = rows_of(model, settings), nodal_rotation(model.parts)
     crushable = np.array([not part.internal.linear for part in model.parts])[rows.part]
     edge = model.edge[model.contacts.rest(np.zeros(model.shape), 0.0).start(np.zeros(model.shape)).node]
     return StoredModel(
@@ -139,6 +172,8 @@ def stored_model(stepper: Stepper, settings: Settings, span: float) -> StoredMod
         solids=_stored(model),
         order=order,
         watched=watched_cells(model),
+        turning=turning,
+        slopes=_slopes(turning),
         span=span,
     )
 
@@ -178,6 +213,18 @@ def _fused(part: DiscreteSolid) -> bool:
     if not (plain and isinstance(force, ElasticForce) and isinstance(force.section, PlaneStrain | Volume)):
         return False
     return isinstance(force.work, KernelEvaluation) and force.work.mean == 0
+
+
+def _slopes(turning: NodalRotation) -> tuple[IntArray, IntArray, Array]:
+    """Sampling of rotations as rows of one pattern: ``start`` (n + 1,), ``node`` (z,) and ``slope`` (z, d)."""
+    together = sp.csr_array(sum(abs(slope) for slope in turning.slopes))
+    row = np.repeat(np.arange(together.shape[0]), np.diff(together.indptr))
+    values = [np.asarray(slope[row, together.indices]).ravel() for slope in turning.slopes]
+    return (
+        np.asarray(together.indptr, np.int64),
+        np.asarray(together.indices, np.int64),
+        np.ascontiguousarray(np.transpose(values)),
+    )
 
 
 def _stored(model: Model) -> Tables:

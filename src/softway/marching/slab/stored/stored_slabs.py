@@ -37,10 +37,11 @@ def next_stored(
     if wanted < 1 or _shape(stored, now.start.displacement) <= CLEAR * FLAT:
         return None
     assert memory.origin is not None
-    found = stored.operator(memory.origin, now.pressure > 0.0)
+    mixed = memory.mixed if memory.frozen is None else memory.frozen.basis.place is None
+    found = stored.operator(memory.origin, now.pressure > 0.0, mixed)
     if found is None:
         return None
-    band, operator = found
+    band, operator, turning = found
     course, account, search = (
         new_course(model, now, wanted, stored.span),
         march_state.account,
@@ -49,7 +50,7 @@ def next_stored(
     start = account.energy_start - account.dissipation - account.remeshing
     told = np.array([start, account.work_external, account.energy_error])
     work = new_work(stored.bodies, stored.rows)
-    tables = Tables.of((stored.bodies, stored.rows, operator, course, work, band, search))
+    tables = Tables.of((stored.bodies, stored.rows, operator, course, work, band, search, turning))
     computed = int(stored_slabs(tables.places, told, wanted))
     shapes = np.array([_shape(stored, course.u[k + 1].reshape(model.shape)) for k in range(computed)])
     count = int(np.argmax([*(shapes <= CLEAR * FLAT), True]))
