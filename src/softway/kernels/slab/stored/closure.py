@@ -21,8 +21,10 @@ from softway.tolerances import AT_REST, SUMS
 
 SURE = 0.5
 """Part of a limit within which a decision is certain."""
-MOST = 0.25
-"""Greatest scalar that is certainly not bounded."""
+CLEAR = 0.95
+"""Part of a limit within which a scalar is certain, and so is the missing work: both follow from the solution."""
+BOUND = 0.5
+"""Greatest scalar that is not bounded, see :mod:`softway.solve.equations.energy_balance`."""
 
 
 @called
@@ -37,7 +39,7 @@ def close(bodies, rows, course, work, search, unit, s):
         it = search.balance[g]
         acts = it[TOUCHED] > 0.0 or it[STRAINED] > AT_REST * it[FLOOR]
         a = it[MISSING] / it[CHANGE] if acts and abs(it[MISSING]) > it[ROUNDING] else 0.0
-        within = within and abs(a) <= MOST
+        within = within and abs(a) <= CLEAR * BOUND
         it[SCALAR] = a
     for part in range(len(bodies.floor)):
         course.scalar[s, part] = search.balance[bodies.group[part], SCALAR]
@@ -54,7 +56,7 @@ def certain(search):
         missing, at_rest = abs(it[MISSING]), AT_REST * it[FLOOR]
         clear = it[TOUCHED] > 0.0 or not SURE * at_rest <= it[STRAINED] <= at_rest / SURE
         near = SURE * it[ROUNDING] <= missing <= it[ROUNDING] / SURE
-        rough = abs(it[SCALAR]) > SURE * limits[ROUGH] and missing > SURE * limits[SLIGHT] * it[WORK]
+        rough = abs(it[SCALAR]) > CLEAR * limits[ROUGH] and missing > CLEAR * limits[SLIGHT] * it[WORK]
         sure = sure and (clear or missing <= SURE * it[ROUNDING]) and not near and not rough
     return sure
 
