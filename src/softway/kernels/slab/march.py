@@ -8,8 +8,9 @@ that is not zero, or a balance within half its limit.  So both take the same dec
 import numpy as np
 
 from softway.kernels.jit.compilation import called, uncounted_kernel
-from softway.kernels.multibody.band import factor_band, solve_band
+from softway.kernels.multibody.band import factor_band
 from softway.kernels.slab.audit import audited, closes
+from softway.kernels.slab.band import solve_spread
 from softway.kernels.slab.products import along, elastic, extent, greatest, momenta
 from softway.kernels.slab.tables import (
     FIRST,
@@ -43,7 +44,7 @@ def factor(matrix, lower, pivot):
 
 
 @uncounted_kernel
-def answer(bodies_place, rows_place, r, lower, pivot, x, out):
+def answer(bodies_place, rows_place, r, down, up, pivot, x, out):
     """Answer (N,) of the operator to a unit impulse on a row; ``x`` (f,) is work space."""
     bodies, rows = bodies_at(bodies_place), rows_at(rows_place)
     x[:] = 0.0
@@ -51,7 +52,7 @@ def answer(bodies_place, rows_place, r, lower, pivot, x, out):
         place = bodies.place[rows.component[e]]
         if place >= 0:
             x[place] += rows.value[e]
-    solve_band(lower, pivot, x)
+    solve_spread(down, up, pivot, x)
     for c in range(len(out)):
         out[c] = x[bodies.place[c]] if bodies.place[c] >= 0 else 0.0
 
@@ -150,7 +151,7 @@ def _iterated(bodies, rows, operator, course, work, h, s):
         for e in range(rows.start[r], rows.start[r + 1]):
             if bodies.place[rows.component[e]] >= 0:
                 x[bodies.place[rows.component[e]]] += rows.value[e] * impulse[r]
-    solve_band(operator.lower, operator.pivot, x[: len(operator.pivot)])
+    solve_spread(operator.down, operator.up, operator.pivot, x[: len(operator.pivot)])
     for c in range(len(field)):
         field[c] = x[bodies.place[c]] if bodies.place[c] >= 0 else 0.0
     return press(bodies, rows, operator, course, work, h, s)

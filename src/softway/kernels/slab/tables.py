@@ -51,11 +51,13 @@ class Rows(NamedTuple):
 
 
 class Operator(NamedTuple):
-    """Factor ``lower`` (f, w + 1), ``pivot`` (f,) of the operator in a band, and the ``active`` rows (k,): the answers
+    """Factor ``down``, ``up`` (f, w + 4) and ``pivot`` (f,) of the operator in a band, see
+    :func:`~softway.kernels.slab.band.spread_factor`, and the ``active`` rows (k,): the answers
     ``answer`` (k, N) to a unit impulse on each, and the ``inverse`` (k, k) of their compliance.
     """
 
-    lower: Array
+    down: Array
+    up: Array
     pivot: Array
     active: IntArray
     answer: Array
@@ -125,7 +127,7 @@ rows_at = table(
     move=FLAGS,
     allowed=NUMBERS,
 )
-operator_at = table("Operator", lower=ROWS, pivot=NUMBERS, active=WHOLES, answer=ROWS, inverse=ROWS)
+operator_at = table("Operator", down=ROWS, up=ROWS, pivot=NUMBERS, active=WHOLES, answer=ROWS, inverse=ROWS)
 course_at = table(
     "Course",
     time=NUMBERS,

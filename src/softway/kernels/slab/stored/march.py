@@ -25,7 +25,6 @@ from softway.kernels.slab.stored.tables import (
     TOTAL,
     USUAL,
     WORN,
-    band_at,
     search_at,
     turning_at,
 )
@@ -58,16 +57,15 @@ astray, and iterations without halving of the change after which it may be round
 def stored_slabs(places, account, wanted):
     """Compute up to ``wanted`` slabs from the first state of a course, and return how many were computed.
 
-    ``places`` (8,) are the addresses of the tables of bodies, rows, operator, course, work, band, search and turning.
+    ``places`` (7,) are the addresses of the tables of bodies, rows, operator, course, work, search and turning.
     ``account`` (3,) are the energy at the start less losses, external work, and error of the balance before.
     """
     bodies, rows, operator = bodies_at(places[0]), rows_at(places[1]), operator_at(places[2])
     course, work = course_at(places[3]), work_at(places[4])
-    band, search = band_at(places[5]), search_at(places[6])
-    turning = turning_at(places[7])
+    search, turning = search_at(places[5]), turning_at(places[6])
     momenta(bodies, course.v[0], work.before)
     for s in range(wanted):
-        if not _slab(bodies, rows, operator, course, work, band, search, turning, s):
+        if not _slab(bodies, rows, operator, course, work, search, turning, s):
             return s
         if not audited(bodies, rows, course, work, account, s):
             return s
@@ -93,17 +91,17 @@ def _dear(search, iterations):
 
 
 @merged
-def _slab(bodies, rows, operator, course, work, band, search, turning, s):
+def _slab(bodies, rows, operator, course, work, search, turning, s):
     """Solve a slab; false if it is not certain."""
     h = course.time[s + 1] - course.time[s]
-    if not turn(bodies, rows, operator, band, turning, course.u[s], work.x[: len(band.pivot)]):
+    if not turn(bodies, rows, operator, turning, course.u[s], work.x[: len(operator.pivot)]):
         return False
     if not expect(bodies, rows, course, work, h, s):
         return False
     for r in range(len(rows.offset)):
         course.pressure[s + 1, r] = h * UNIT * course.pressure[s, r]
     search.kept[KEPT] = search.kept[PREVIOUS] = 0
-    count = _iterated(bodies, rows, operator, course, work, band, search, turning, h, s)
+    count = _iterated(bodies, rows, operator, course, work, search, turning, h, s)
     if count == 0:
         return False
     course.sums[s, ITERATIONS], course.sums[s, FIRST] = count, search.changes[0]
@@ -124,7 +122,7 @@ def _evaluate(bodies, course, work, search, h, s):
 
 
 @merged
-def _iterated(bodies, rows, operator, course, work, band, search, turning, h, s):
+def _iterated(bodies, rows, operator, course, work, search, turning, h, s):
     """Number of iterations to a solution, or 0 if there is none or a decision is close."""
     size, before = extent(bodies, course.u[s]), greatest(course.v[s])
     rounding, tolerance = 8.0 * np.finfo(np.float64).eps * size / h, search.limits[TOLERANCE]
@@ -135,7 +133,7 @@ def _iterated(bodies, rows, operator, course, work, band, search, turning, h, s)
             course.scalar[s] = 0.0
         elif not close(bodies, rows, course, work, search, 1.0 / (h * UNIT), s):
             return 0
-        change = _corrected(bodies, rows, operator, course, work, band, turning, h, s)
+        change = _corrected(bodies, rows, operator, course, work, turning, h, s)
         scale = max(greatest(work.q), before, 1e-300)
         search.changes[count - 1] = change
         if not (change < np.inf and scale * h <= size) or not stays(
@@ -166,7 +164,7 @@ def _renews(search, count, distance):
 
 
 @merged
-def _corrected(bodies, rows, operator, course, work, band, turning, h, s):
+def _corrected(bodies, rows, operator, course, work, turning, h, s):
     """Correct q (N,) and the impulses (m,) of the active rows by the operator; return the greatest change."""
     f0, f1, v, x, field = course.force[s], course.force[s + 1], course.v[s], work.x, work.after
     for c in range(len(field)):
@@ -185,7 +183,7 @@ def _corrected(bodies, rows, operator, course, work, band, turning, h, s):
         for e in range(rows.start[r], rows.start[r + 1]):
             if bodies.place[rows.component[e]] >= 0:
                 x[bodies.place[rows.component[e]]] += rows.value[e] * impulse[r]
-    solve_turned(bodies, band, turning, x[: len(band.pivot)])
+    solve_turned(bodies, operator, turning, x[: len(operator.pivot)])
     for c in range(len(field)):
         field[c] = x[bodies.place[c]] if bodies.place[c] >= 0 else 0.0
     return press(bodies, rows, operator, course, work, h, s)

@@ -1,4 +1,4 @@
-"""Anderson mixing of the iterates of a slab (time step), as :class:`~softway.solve.methods.anderson.Anderson` does it."""
+"""Anderson mixing of the iterates of a slab (time step), as in :mod:`softway.solve.methods.anderson`."""
 
 import numpy as np
 

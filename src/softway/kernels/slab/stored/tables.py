@@ -23,8 +23,8 @@ class Cells(NamedTuple):
 
 class Stored(NamedTuple):
     """A solid: the address of the function of its ``forces``, those of its tables ``cells`` (k,), the node of each of
-    its ``extra`` rows (h,), and work space ``u`` and ``out`` (n + h + 1, d) for displacements and forces, whose last row
-    belongs to lanes without a cell, and ``energy`` (1,).
+    its ``extra`` rows (h,), and work space: ``u`` and ``out`` (n + h + 1, d) for displacements and forces, whose last
+    row belongs to lanes without a cell, and ``energy`` (1,).
     """
 
     forces: int
@@ -35,24 +35,14 @@ class Stored(NamedTuple):
     energy: Array
 
 
-class Band(NamedTuple):
-    """Factor ``A = L D L^T`` of f unknowns: ``down`` (f, w + 4) with L_ij in ``[j, i - j]``, ``up`` (f, w + 4) with it
-    in ``[i, w + 3 + j - i]``, the other entries zero, and ``pivot`` (f,).
-    """
-
-    down: Array
-    up: Array
-    pivot: Array
-
-
 class Search(NamedTuple):
     """Iterations of a slab: ``solids`` (parts,) are the addresses of their tables.
 
     ``balance`` (groups, BALANCE) takes the terms of the energy balance.  The last differences are ``residuals``
     (depth, N) and ``values`` (depth, N + m), with their products ``gram`` (depth, depth); ``last`` (2 N + m,) are the
     residual and the value before, ``small`` (3, depth, depth) is work space, ``kept`` (2,) counts the differences and
-    tells if there is a value before.  ``changes`` (most,) are the changes of the iterates [m/s], ``limits`` (LIMITS,) and
-    ``taken`` (TAKEN,) are numbers of the march.
+    tells if there is a value before.  ``changes`` (most,) are the changes of the iterates [m/s], ``limits`` (LIMITS,)
+    and ``taken`` (TAKEN,) are numbers of the march.
     """
 
     solids: IntArray
@@ -103,7 +93,6 @@ cells_at = table(
     energy=ROWS,
 )
 stored_at = table("Stored", forces=WHOLE, cells=WHOLES, extra=WHOLES, u=ROWS, out=ROWS, energy=NUMBERS)
-band_at = table("Band", down=ROWS, up=ROWS, pivot=NUMBERS)
 search_at = table(
     "Search",
     solids=WHOLES,

@@ -7,7 +7,7 @@ A was factored.
 import numpy as np
 
 from softway.kernels.jit.compilation import called
-from softway.kernels.slab.stored.band import solve_with
+from softway.kernels.slab.band import solve_spread
 from softway.kernels.slab.stored.tables import MIXED, NOW, STRAIGHT, TURNED, UNKNOWN
 
 CLEAR = 1e-6
@@ -19,7 +19,7 @@ DEPENDENT = 1e-9
 
 
 @called
-def turn(bodies, rows, operator, band, turning, u, x):
+def turn(bodies, rows, operator, turning, u, x):
     """Set the rotations at the start of a slab, and the answers of closed rows in axes that turn; false if a decision
     is close, or constant axes are given up.
 
@@ -38,21 +38,21 @@ def turn(bodies, rows, operator, band, turning, u, x):
             place = bodies.place[rows.component[e]]
             if place >= 0:
                 x[place] += rows.value[e]
-        solve_turned(bodies, band, turning, x)
+        solve_turned(bodies, operator, turning, x)
         for c in range(len(out)):
             out[c] = x[bodies.place[c]] if bodies.place[c] >= 0 else 0.0
     return _inverted(rows, operator, turning)
 
 
 @called
-def solve_turned(bodies, band, turning, x):
+def solve_turned(bodies, operator, turning, x):
     """Solve in place with the operator of the slab, x (f,)."""
     if turning.state[NOW] == TURNED:
         _rotate(bodies, turning, x, True)
-        solve_with(band, x)
+        solve_spread(operator.down, operator.up, operator.pivot, x)
         _rotate(bodies, turning, x, False)
     else:
-        solve_with(band, x)
+        solve_spread(operator.down, operator.up, operator.pivot, x)
 
 
 @called

@@ -17,9 +17,8 @@ from softway.bodies.internal_force.elastic.kernel_evaluation import KernelEvalua
 from softway.bodies.internal_force.slab_average import Weighted
 from softway.kernels.jit.by_address import packed
 from softway.kernels.jit.lanes import LANES
-from softway.kernels.slab.stored.band import spread_factor
 from softway.kernels.slab.stored.force import solid_forces
-from softway.kernels.slab.stored.tables import Band, Cells, Stored, Turning
+from softway.kernels.slab.stored.tables import Cells, Stored, Turning
 from softway.kernels.slab.tables import Bodies, Operator, Rows
 from softway.marching.audit.folded_cells import WatchedCells, watched_cells
 from softway.marching.rules.equilibrated import EndForceContact, Equilibrated
@@ -62,12 +61,11 @@ class Tables:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FrozenFactor:
-    """Factor of an operator in a band: as for linear laws, with the operators of closed rows, and for solutions; and the
-    deformation ``gradient`` (n, d, d) at the nodes where it was made.
+    """Factor of an operator with the operators of closed rows, as for linear laws, and the deformation ``gradient``
+    (n, d, d) at the nodes where it was made.
     """
 
     compiled: CompiledModel
-    band: Band
     gradient: Array
 
 
@@ -99,8 +97,8 @@ class StoredModel:
             self.factors[key] = self._made(origin)
         return self.factors[key]
 
-    def operator(self, origin: OperatorOrigin, closed: BoolArray, mixed: bool) -> tuple[Band, Operator, Turning] | None:
-        """Factor, operator with the rows ``closed`` (m,), and its rotation; None if there is none.
+    def operator(self, origin: OperatorOrigin, closed: BoolArray, mixed: bool) -> tuple[Operator, Turning] | None:
+        """Operator with the rows ``closed`` (m,), and its rotation; None if there is none.
 
         Rows are solved for in axes that turn where they are ``mixed``.
         """
@@ -111,7 +109,7 @@ class StoredModel:
         if mixed:
             answer, inverse = np.zeros_like(operator.answer), np.zeros_like(operator.inverse)
             operator = operator._replace(answer=answer, inverse=inverse)
-        return factor.band, operator, self._turning(factor, len(operator.active), mixed)
+        return operator, self._turning(factor, len(operator.active), mixed)
 
     def _turning(self, factor: FrozenFactor, closed: int, mixed: bool) -> Turning:
         """Rotation of the operator, with room for closed rows."""
@@ -135,19 +133,15 @@ class StoredModel:
         found = banded_factor(sp.csr_array(origin.stiffness(self.model).operator(origin.at)), self.order)
         if found is None:
             return None
-        lower, pivot = found
-        down, up = (np.zeros((len(pivot), lower.shape[1] + 3)) for _ in range(2))
-        spread_factor(lower, down, up)
         compiled = CompiledModel(
             model=self.model,
             bodies=self.bodies,
             rows=self.rows,
             span=self.span,
-            lower=lower,
-            pivot=pivot,
+            factor=found,
             tolerance=self.method.tolerance,
         )
-        return FrozenFactor(compiled, Band(down=down, up=up, pivot=pivot), self.turning.gradient(origin.at))
+        return FrozenFactor(compiled, self.turning.gradient(origin.at))
 
 
 def stored_model(stepper: Stepper, settings: Settings, span: float) -> StoredModel | None:

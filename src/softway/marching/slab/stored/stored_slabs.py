@@ -41,7 +41,7 @@ def next_stored(
     found = stored.operator(memory.origin, now.pressure > 0.0, mixed)
     if found is None:
         return None
-    band, operator, turning = found
+    operator, turning = found
     course, account, search = (
         new_course(model, now, wanted, stored.span),
         march_state.account,
@@ -50,7 +50,7 @@ def next_stored(
     start = account.energy_start - account.dissipation - account.remeshing
     told = np.array([start, account.work_external, account.energy_error])
     work = new_work(stored.bodies, stored.rows)
-    tables = Tables.of((stored.bodies, stored.rows, operator, course, work, band, search, turning))
+    tables = Tables.of((stored.bodies, stored.rows, operator, course, work, search, turning))
     computed = int(stored_slabs(tables.places, told, wanted))
     shapes = np.array([_shape(stored, course.u[k + 1].reshape(model.shape)) for k in range(computed)])
     count = int(np.argmax([*(shapes <= CLEAR * FLAT), True]))

@@ -1,12 +1,14 @@
 """Solution with a factor in a band, four columns at a time: each of them is a loop over contiguous numbers."""
 
 from softway.kernels.jit.compilation import called, uncounted_kernel
-from softway.kernels.slab.stored.tables import band_at
 
 
 @uncounted_kernel
 def spread_factor(lower, down, up):
-    """Copy a factor ``lower`` (f, w + 1) of :func:`~softway.kernels.multibody.band.factor_band` to a ``Band``."""
+    """Copy a factor ``lower`` (f, w + 1) of :func:`~softway.kernels.multibody.band.factor_band` for solutions.
+
+    L_ij is in ``down[j, i - j]`` and in ``up[i, w + 3 + j - i]``, both (f, w + 4); their other entries are zero.
+    """
     w = lower.shape[1] - 1
     down[:], up[:] = 0.0, 0.0
     for i in range(len(lower)):
@@ -16,9 +18,8 @@ def spread_factor(lower, down, up):
 
 
 @called
-def solve_with(band, x):
-    """Solve in place, x (f,)."""
-    down, up, pivot = band.down, band.up, band.pivot
+def solve_spread(down, up, pivot, x):
+    """Solve in place with a factor of :func:`spread_factor` and its pivots (f,), x (f,)."""
     n, w = len(pivot), down.shape[1] - 4
     for j in range(0, n, 4):
         for k in range(1, min(4, n - j)):
@@ -57,6 +58,7 @@ def _subtract(x, one, two, three, four, by):
 
 
 @uncounted_kernel
-def solve_at(place, x):
-    """:func:`solve_with` with the ``Band`` at an address, for calls from Python."""
-    solve_with(band_at(place), x)
+def solve_many(down, up, pivot, answers):
+    """Solve in place for several right-hand sides (k, f)."""
+    for k in range(len(answers)):
+        solve_spread(down, up, pivot, answers[k])
