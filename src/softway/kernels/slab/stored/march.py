@@ -41,7 +41,7 @@ from softway.kernels.slab.tables import (
 )
 
 NEAR = 0.99
-"""Part of the tolerance below which a change is certainly within it: changes of both paths differ by rounding."""
+"""Part of the tolerance, less the velocity by rounding of positions, below which a change is certainly within it."""
 WINDOW = 10
 """Iterations after which slow convergence asks for a new operator."""
 SLOW = 0.5
@@ -140,15 +140,16 @@ def _iterated(bodies, rows, operator, course, work, search, turning, h, s):
             bodies, rows, operator, course, work, h, rounding, s
         ):
             return 0
-        if change <= NEAR * tolerance * scale:
+        wanted = tolerance * scale
+        if change <= NEAR * wanted - rounding:
             return count
         stuck = stuck + 1 if count > 1 and change > STUCK * search.changes[count - 2] else 0
         idle = 0 if change < 0.5 * best and best > rounding else idle + 1
         best = change if idle == 0 else best
-        if change * NEAR <= tolerance * scale or stuck == 2 or idle == IDLE or change > ASTRAY * closest:
+        if NEAR * change <= wanted + rounding or stuck == 2 or idle == IDLE or change > ASTRAY * closest:
             return 0
         closest = min(closest, change)
-        if count > WINDOW and _renews(search, count, change / (tolerance * scale)):
+        if count > WINDOW and _renews(search, count, change / wanted):
             return 0
         mix(search, work.after, work.q, course.pressure[s + 1])
     return 0

@@ -74,7 +74,8 @@ class StoredModel:
     """Arrays of a model with stored energies for slabs of the length ``span`` [s].
 
     ``solids`` are the tables of the solids, ``order`` that of the band, ``watched`` the cells whose shapes are looked
-    at, ``turning`` and ``slopes`` the sampling of rotations.  ``factors`` keeps that of the last operator; it depends on the place where that was made only.
+    at, ``turning`` and ``slopes`` the sampling of rotations.  ``factors`` keeps that of the last operator; it depends
+    on the place where that was made only.
     """
 
     model: Model
