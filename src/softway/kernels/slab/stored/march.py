@@ -41,7 +41,7 @@ from softway.kernels.slab.tables import (
 )
 
 NEAR = 0.99
-"""Part of the tolerance, less the velocity by rounding of positions, below which a change is certainly within it."""
+"""Part of the tolerance up to which a change is within it; where changes are rounding, both paths may differ more."""
 WINDOW = 10
 """Iterations after which slow convergence asks for a new operator."""
 SLOW = 0.5
@@ -141,12 +141,12 @@ def _iterated(bodies, rows, operator, course, work, search, turning, h, s):
         ):
             return 0
         wanted = tolerance * scale
-        if change <= NEAR * wanted - rounding:
+        if change <= NEAR * wanted:
             return count
         stuck = stuck + 1 if count > 1 and change > STUCK * search.changes[count - 2] else 0
         idle = 0 if change < 0.5 * best and best > rounding else idle + 1
         best = change if idle == 0 else best
-        if NEAR * change <= wanted + rounding or stuck == 2 or idle == IDLE or change > ASTRAY * closest:
+        if NEAR * change <= wanted or stuck == 2 or idle == IDLE or change > ASTRAY * closest:
             return 0
         closest = min(closest, change)
         if count > WINDOW and _renews(search, count, change / wanted):
