@@ -5,7 +5,7 @@ import numpy as np
 from softway.arrays import Array
 from softway.kernels.slab.stored.march import stored_slabs
 from softway.kernels.slab.stored.tables import BALANCE, DEAR, Search
-from softway.kernels.slab.tables import ITERATIONS
+from softway.kernels.slab.tables import ITERATIONS, Course
 from softway.marching.slab.compiled_slabs import AHEAD, NUMBERS, TOGETHER, new_course, new_work
 from softway.marching.slab.slab_batch import SlabBatch, contractions
 from softway.marching.slab.stored.stored_model import StoredModel, Tables
@@ -36,22 +36,10 @@ def next_stored(
     wanted = int(min(left, TOGETHER, max(1, NUMBERS // (8 * now.start.displacement.size))))
     if wanted < 1 or _shape(stored, now.start.displacement) <= CLEAR * FLAT:
         return None
-    assert memory.origin is not None
-    mixed = memory.mixed if memory.frozen is None else memory.frozen.basis.place is None
-    found = stored.operator(memory.origin, now.pressure > 0.0, mixed)
+    found = _computed(stored, march_state, memory, wanted)
     if found is None:
         return None
-    operator, turning = found
-    course, account, search = (
-        new_course(model, now, wanted, stored.span),
-        march_state.account,
-        _search(stored, march_state, memory),
-    )
-    start = account.energy_start - account.dissipation - account.remeshing
-    told = np.array([start, account.work_external, account.energy_error])
-    work = new_work(stored.bodies, stored.rows)
-    tables = Tables.of((stored.bodies, stored.rows, operator, course, work, search, turning))
-    computed = int(stored_slabs(tables.places, told, wanted))
+    course, computed, worn = found
     shapes = np.array([_shape(stored, course.u[k + 1].reshape(model.shape)) for k in range(computed)])
     count = int(np.argmax([*(shapes <= CLEAR * FLAT), True]))
     if not count:
@@ -67,8 +55,29 @@ def next_stored(
         pairs=model.contacts.rest(model.displacement, 0.0).found,
         states={0: before},
         shapes=shapes[:count],
-        worn=count == computed and bool(search.taken[DEAR]),
+        worn=worn and count == computed,
     )
+
+
+def _computed(
+    stored: StoredModel, march_state: MarchState, memory: OperatorMemory, wanted: int
+) -> tuple[Course, int, bool] | None:
+    """Course with up to so many slabs, the number of those computed, and whether the last one has worn the operator;
+    None without an operator.
+    """
+    now, account = march_state.state, march_state.account
+    assert memory.origin is not None
+    mixed = memory.mixed if memory.frozen is None else memory.frozen.basis.place is None
+    found = stored.operator(memory.origin, now.pressure > 0.0, mixed)
+    if found is None:
+        return None
+    operator, turning = found
+    course, search = new_course(stored.model, now, wanted, stored.span), _search(stored, march_state, memory)
+    start = account.energy_start - account.dissipation - account.remeshing
+    told = np.array([start, account.work_external, account.energy_error])
+    work = new_work(stored.bodies, stored.rows)
+    tables = Tables.of((stored.bodies, stored.rows, operator, course, work, search, turning))
+    return course, int(stored_slabs(tables.places, told, wanted)), bool(search.taken[DEAR])
 
 
 def _known(memory: OperatorMemory, span: float) -> bool:
