@@ -28,3 +28,5 @@ KEEP_EDGES_AFTER = 6
 """Iterations after which nodes and edges keep their facets and edges where all edges have rows."""
 KEEP_FACETS_AFTER = 15
 """Number of iterations after which nodes are kept on their facets: a node between two facets would alternate."""
+INDEPENDENT = 1e-13
+"""Least eigenvalue, for each of them, of the products of unit differences of residuals that is used in mixing."""

@@ -18,6 +18,8 @@ from softway.marching.slab.resident_model import resident_model
 from softway.marching.slab.resident_slabs import next_resident
 from softway.marching.slab.slab_step import Stepper
 from softway.marching.slab.step_group import StepGroup, in_steps
+from softway.marching.slab.stored.stored_model import stored_model
+from softway.marching.slab.stored.stored_slabs import next_stored
 from softway.marching.start.knots import slab_length
 from softway.marching.start.ladder import Quality, fastest, next_rung, on_ladder
 from softway.marching.state.march_state import AdaptedMeshes, MarchState, StepHistory
@@ -42,9 +44,11 @@ def groups(stepper: Stepper, march_state: MarchState) -> Iterator[Step | StepGro
     model, settings, span = stepper.model, march_state.settings, march_state.step_history.span
     until, memory, before = settings.until, march_state.memory, split_states(model, march_state.state)
     cells, compiled = crushing(model, stepper.method), compiled_model(stepper, settings, span)
+    stored = stored_model(stepper, settings, span)
     resident, shapes = resident_model(stepper, settings), watched_cells(model)
     while march_state.state.time < until - 1e-9 * span:
         some = None if compiled is None else next_batch(compiled, march_state, before, memory)
+        some = some if stored is None else next_stored(stored, march_state, before, memory)
         some = some if resident is None else next_resident(resident, march_state, before, memory)
         if some is not None:
             count = len(some.iterations)
@@ -74,8 +78,10 @@ def _looked_at(
 
 
 def _looked_at_the_last(shapes: WatchedCells, group: StepGroup) -> Iterator[Step | StepGroup]:
-    """The group; where cells may fold, its last slab as a step with the shape of the worst cell."""
-    if not shapes.blocks:
+    """The group; where cells may fold and their shapes are not known, its last slab as a step with the shape of the
+    worst cell.
+    """
+    if not shapes.blocks or group.batch.shapes is not None:
         yield group
         return
     if len(group) > 1:

@@ -19,7 +19,10 @@ from softway.arrays import IntArray
 
 WHOLE, WHOLES, FLAGS = types.int64, types.int64[::1], types.boolean[::1]
 NUMBERS, ROWS, BLOCKS = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
-"""Kinds of entries: a whole number, arrays of whole numbers and of truth values, and arrays of one to three indices."""
+LANES = types.uint32[:, :, ::1]
+"""Kinds of entries: a whole number, arrays of whole numbers and of truth values, arrays of one to three indices, and
+whole numbers of the cells in lanes.
+"""
 
 
 class Table(types.Type):
@@ -81,6 +84,18 @@ def table(name: str, **entries: Any) -> Callable[[int], Any]:
         return kind(types.int64), generate
 
     return at  # type: ignore[no-any-return]
+
+
+@intrinsic
+def call_with(typing, address, place):
+    """Call the :func:`~softway.kernels.jit.compilation.task` at an address with the address of a table."""
+
+    def generate(context, builder, signature, args):
+        kind = ir.FunctionType(ir.VoidType(), [ir.IntType(64)]).as_pointer()
+        builder.call(builder.inttoptr(args[0], kind), [args[1]])
+        return context.get_dummy_value()
+
+    return types.none(types.int64, types.int64), generate
 
 
 def packed(arrays: NamedTuple) -> IntArray:

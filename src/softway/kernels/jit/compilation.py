@@ -22,12 +22,14 @@ _PART = _EXACT | {"forceinline": True, "no_cfunc_wrapper": True, "no_cpython_wra
 # Numba counts references to arrays by atomic operations, which take longer than a slab of a small mechanism.
 _UNCOUNTED: dict[str, Any] = {"_nrt": False}
 _POINT = types.void(types.CPointer(types.float64), types.CPointer(types.float64))
+_TASK = types.void(types.int64)
 _SHARED = (
     "jit/by_address.py",
     "jit/compilation.py",
     "jit/elementary.py",
     "jit/lanes.py",
     "jit/simd.py",
+    "fused/elastic.py",
     "fused/history_stages.py",
     "fused/inelastic.py",
     "fused/mean_dilatation.py",
@@ -61,7 +63,14 @@ _SHARED = (
     "pile/tables.py",
     "pile/through.py",
     "slab/audit.py",
+    "slab/band.py",
+    "slab/march.py",
     "slab/products.py",
+    "slab/stored/closure.py",
+    "slab/stored/force.py",
+    "slab/stored/mixing.py",
+    "slab/stored/tables.py",
+    "slab/stored/turning.py",
     "slab/tables.py",
     "slab/works.py",
     "../tolerances.py",
@@ -75,6 +84,11 @@ _ENDING = f"_{sha256(_SOURCES).hexdigest()[:12]}"
 def stage(function: Callable[..., None]) -> Stage:
     """Compile a stage, which kernels call by its address, and cache it on disk."""
     return _kept(lambda **options: cfunc(_POINT, **options), function, _EXACT)
+
+
+def task(function: Callable[..., None]) -> Stage:
+    """Compile a function of the address of a table, which kernels call by its own address, and cache it on disk."""
+    return _kept(lambda **options: cfunc(_TASK, **options), function, _EXACT)
 
 
 def kernel(function: Callable[..., Any]) -> Callable[..., Any]:
@@ -120,6 +134,13 @@ def called(function: Callable[..., Any]) -> Callable[..., Any]:
     more in each call.
     """
     return njit(**(_PART | {"forceinline": False}), **_UNCOUNTED)(function)
+
+
+def merged(function: Callable[..., Any]) -> Callable[..., Any]:
+    """Make a function as ``called``, whose statements are put into its callers before these are compiled: for parts of
+    one kernel.  Numba optimises a function again in each function that calls it, and in the callers of these.
+    """
+    return njit(**(_PART | {"forceinline": False, "inline": "always"}), **_UNCOUNTED)(function)
 
 
 def _kept(compiler: Callable[..., Any], function: Callable[..., Any], options: dict[str, Any]) -> Any:

@@ -100,7 +100,8 @@ def _touching(rows, course, work, s):
         met, p0, p1 = course.met[s, rows.contact[r]], course.pressure[s, r], course.pressure[s + 1, r]
         gap = rows.offset[r] + along(rows, r, course.u[s + 1])
         before = rows.offset[r] + along(rows, r, course.u[s]) if p0 > 0.0 else 0.0
-        force = 0.5 * p0 + 0.5 * p1
+        a = course.scalar[s, rows.part[r]]
+        force = (0.5 - a) * p0 + (0.5 + a) * p1
         work.row[r] = force
         met[FORCE] += force
         met[GAP] = min(met[GAP], gap)
@@ -117,12 +118,14 @@ def _touching(rows, course, work, s):
 @called
 def _supported(bodies, course, work, h, s):
     """Mean forces of the supports."""
-    for c in range(len(work.q)):
-        course.support[s, c] = 0.0
-        if bodies.place[c] < 0:
-            inertia = (work.after[c] - work.before[c]) / h
-            mean = 0.5 * course.force[s, c] + 0.5 * course.force[s + 1, c]
-            course.support[s, c] = inertia + mean - bodies.load[c] - work.push[c]
+    for part in range(len(bodies.floor)):
+        first, last = 0.5 - course.scalar[s, part], 0.5 + course.scalar[s, part]
+        for c in range(bodies.first[part] * bodies.dimension, bodies.first[part + 1] * bodies.dimension):
+            course.support[s, c] = 0.0
+            if bodies.place[c] < 0:
+                inertia = (work.after[c] - work.before[c]) / h
+                mean = first * course.force[s, c] + last * course.force[s + 1, c]
+                course.support[s, c] = inertia + mean - bodies.load[c] - work.push[c]
 
 
 @called

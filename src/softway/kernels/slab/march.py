@@ -8,8 +8,9 @@ that is not zero, or a balance within half its limit.  So both take the same dec
 import numpy as np
 
 from softway.kernels.jit.compilation import called, uncounted_kernel
-from softway.kernels.multibody.band import factor_band, solve_band
+from softway.kernels.multibody.band import factor_band
 from softway.kernels.slab.audit import audited, closes
+from softway.kernels.slab.band import solve_spread
 from softway.kernels.slab.products import along, elastic, extent, greatest, momenta
 from softway.kernels.slab.tables import (
     FIRST,
@@ -43,7 +44,7 @@ def factor(matrix, lower, pivot):
 
 
 @uncounted_kernel
-def answer(bodies_place, rows_place, r, lower, pivot, x, out):
+def answer(bodies_place, rows_place, r, down, up, pivot, x, out):
     """Answer (N,) of the operator to a unit impulse on a row; ``x`` (f,) is work space."""
     bodies, rows = bodies_at(bodies_place), rows_at(rows_place)
     x[:] = 0.0
@@ -51,7 +52,7 @@ def answer(bodies_place, rows_place, r, lower, pivot, x, out):
         place = bodies.place[rows.component[e]]
         if place >= 0:
             x[place] += rows.value[e]
-    solve_band(lower, pivot, x)
+    solve_spread(down, up, pivot, x)
     for c in range(len(out)):
         out[c] = x[bodies.place[c]] if bodies.place[c] >= 0 else 0.0
 
@@ -80,7 +81,7 @@ def slabs(places, tolerance, account, wanted):
 def _slab(bodies, rows, operator, course, work, tolerance, s):
     """Solve a slab; false if it is not certain."""
     h = course.time[s + 1] - course.time[s]
-    if not _expect(bodies, rows, course, work, h, s):
+    if not expect(bodies, rows, course, work, h, s):
         return False
     for r in range(len(rows.offset)):
         course.pressure[s + 1, r] = h * UNIT * course.pressure[s, r]
@@ -97,7 +98,7 @@ def _slab(bodies, rows, operator, course, work, tolerance, s):
             course.sums[s, FIRST] = change
         if not (change < np.inf and scale * h <= size):
             return False
-        if not _stays(bodies, rows, operator, course, work, h, rounding, s):
+        if not stays(bodies, rows, operator, course, work, h, rounding, s):
             return False
         if change <= SURE * tolerance * scale:
             break
@@ -112,7 +113,7 @@ def _slab(bodies, rows, operator, course, work, tolerance, s):
 
 
 @called
-def _expect(bodies, rows, course, work, h, s):
+def expect(bodies, rows, course, work, h, s):
     """Set q (N,) to the velocity that goes on as before; false if a row would overlap too far without contact."""
     u, v, slope, end = course.u[s], course.v[s], course.slope[s], work.x
     for c in range(len(work.q)):
@@ -150,14 +151,14 @@ def _iterated(bodies, rows, operator, course, work, h, s):
         for e in range(rows.start[r], rows.start[r + 1]):
             if bodies.place[rows.component[e]] >= 0:
                 x[bodies.place[rows.component[e]]] += rows.value[e] * impulse[r]
-    solve_band(operator.lower, operator.pivot, x[: len(operator.pivot)])
+    solve_spread(operator.down, operator.up, operator.pivot, x[: len(operator.pivot)])
     for c in range(len(field)):
         field[c] = x[bodies.place[c]] if bodies.place[c] >= 0 else 0.0
-    return _pressed(bodies, rows, operator, course, work, h, s)
+    return press(bodies, rows, operator, course, work, h, s)
 
 
 @called
-def _pressed(bodies, rows, operator, course, work, h, s):
+def press(bodies, rows, operator, course, work, h, s):
     """Change q (N,) by the correction without new contact forces, and close the active rows; the greatest change."""
     field, impulse, k = work.after, course.pressure[s + 1], len(operator.active)
     for a in range(k):
@@ -189,7 +190,7 @@ def _target(bodies, rows, course, h, s, r):
 
 
 @called
-def _stays(bodies, rows, operator, course, work, h, rounding, s):
+def stays(bodies, rows, operator, course, work, h, rounding, s):
     """True if closed rows certainly stay closed, and open rows open."""
     impulse, most = course.pressure[s + 1], 0.0
     for a in range(len(operator.active)):

@@ -51,11 +51,13 @@ class Rows(NamedTuple):
 
 
 class Operator(NamedTuple):
-    """Factor ``lower`` (f, w + 1), ``pivot`` (f,) of the operator in a band, and the ``active`` rows (k,): the answers
+    """Factor ``down``, ``up`` (f, w + 4) and ``pivot`` (f,) of the operator in a band, see
+    :func:`~softway.kernels.slab.band.spread_factor`, and the ``active`` rows (k,): the answers
     ``answer`` (k, N) to a unit impulse on each, and the ``inverse`` (k, k) of their compliance.
     """
 
-    lower: Array
+    down: Array
+    up: Array
     pivot: Array
     active: IntArray
     answer: Array
@@ -64,8 +66,8 @@ class Operator(NamedTuple):
 
 class Course(NamedTuple):
     """States of successive slabs: ``time`` (s + 1,); ``u``, ``v``, ``slope`` and ``force`` (s + 1, N), ``pressure``
-    (s + 1, m), ``energy`` (s + 1, parts); ``support`` (s, N), without a row where nothing is supported; ``sums``
-    (s, SUMS) and, of the contacts, ``met`` (s, contacts, MET).
+    (s + 1, m), ``energy`` (s + 1, parts); ``scalar`` (s, parts) of the energy balance; ``support`` (s, N), without a
+    row where nothing is supported; ``sums`` (s, SUMS) and, of the contacts, ``met`` (s, contacts, MET).
     """
 
     time: Array
@@ -75,6 +77,7 @@ class Course(NamedTuple):
     force: Array
     pressure: Array
     energy: Array
+    scalar: Array
     support: Array
     sums: Array
     met: Array
@@ -124,7 +127,7 @@ rows_at = table(
     move=FLAGS,
     allowed=NUMBERS,
 )
-operator_at = table("Operator", lower=ROWS, pivot=NUMBERS, active=WHOLES, answer=ROWS, inverse=ROWS)
+operator_at = table("Operator", down=ROWS, up=ROWS, pivot=NUMBERS, active=WHOLES, answer=ROWS, inverse=ROWS)
 course_at = table(
     "Course",
     time=NUMBERS,
@@ -134,6 +137,7 @@ course_at = table(
     force=ROWS,
     pressure=ROWS,
     energy=ROWS,
+    scalar=ROWS,
     support=ROWS,
     sums=ROWS,
     met=BLOCKS,

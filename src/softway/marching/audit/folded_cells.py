@@ -38,7 +38,11 @@ class _Block:
 
     def shapes(self, state: ModelState) -> Array:
         """Shapes (e,) of the cells in a state."""
-        return self.table.of(self.nodes, self.part.mesh.points, state.start.displacement[self.part.nodes])
+        return self.at(state.start.displacement)
+
+    def at(self, u: Array) -> Array:
+        """Shapes (e,) of the cells at the displacement ``u`` (n, d)."""
+        return self.table.of(self.nodes, self.part.mesh.points, u[self.part.nodes])
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -50,10 +54,11 @@ class WatchedCells:
 
     def seen(self, certificate: Certificate, after: ModelState) -> Certificate:
         """The certificate with the shape of the worst cell."""
-        if not self.blocks:
-            return certificate
-        least = self.model.space.least
-        return replace(certificate, shape=min(least(block.shapes(after)) for block in self.blocks))
+        return replace(certificate, shape=self.least(after.start.displacement)) if self.blocks else certificate
+
+    def least(self, u: Array) -> float:
+        """Least shape of all cells at the displacement ``u`` (n, d)."""
+        return min(self.model.space.least(block.at(u)) for block in self.blocks)
 
     def findings(self, certificate: Certificate, before: ModelState, after: ModelState) -> Iterator[Event]:
         """One finding on each solid in which the first cell has folded, or become flat, in a slab."""

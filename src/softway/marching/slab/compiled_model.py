@@ -1,6 +1,7 @@
 """Model with linear laws on fixed contact rows as arrays for compiled slabs (docs/theory/solver/compiled_slabs.md)."""
 
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
@@ -13,6 +14,7 @@ from softway.bodies.elements.section import Axisymmetric
 from softway.bodies.internal_force.elastic.elastic_force import ElasticForce
 from softway.bodies.internal_force.slab_average import Weighted
 from softway.kernels.jit.by_address import packed
+from softway.kernels.slab.band import spread_factor
 from softway.kernels.slab.march import answer, factor
 from softway.kernels.slab.tables import Bodies, Operator, Rows
 from softway.marching.rules.equilibrated import EndForceContact, Equilibrated
@@ -35,9 +37,19 @@ INVERTED = 1e-6
 """Greatest error of the inverse compliance of the closed rows: rows that depend on each other have none."""
 
 
+class BandFactor(NamedTuple):
+    """Factor in a band: ``down`` and ``up`` (f, w + 4), see :func:`~softway.kernels.slab.band.spread_factor`, and
+    ``pivot`` (f,).
+    """
+
+    down: Array
+    up: Array
+    pivot: Array
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class CompiledModel:
-    """Arrays of a model for slabs of the length ``span`` [s]; ``lower`` and ``pivot`` are the factor of their operator.
+    """Arrays of a model for slabs of the length ``span`` [s]; with the ``factor`` of their operator.
 
     ``operators`` keeps that of the last closed rows; it depends on these rows only.
     """
@@ -46,8 +58,7 @@ class CompiledModel:
     bodies: Bodies
     rows: Rows
     span: float
-    lower: Array
-    pivot: Array
+    factor: BandFactor
     tolerance: float
     operators: dict[bytes, Operator | None] = field(default_factory=dict)
 
@@ -60,17 +71,17 @@ class CompiledModel:
         return self.operators[key]
 
     def _made(self, active: IntArray) -> Operator | None:
-        answers, work = np.zeros((len(active), len(self.bodies.heavy))), np.empty(len(self.pivot))
+        answers, work = np.zeros((len(active), len(self.bodies.heavy))), np.empty(len(self.factor.pivot))
         tables = packed(self.bodies), packed(self.rows)
         for row, out in zip(active, answers, strict=True):
-            answer(*(each.ctypes.data for each in tables), row, self.lower, self.pivot, work, out)
+            answer(*(each.ctypes.data for each in tables), row, *self.factor, work, out)
         compliance = answers @ _gradient(self.rows, len(self.bodies.heavy))[active].T
         inverse = np.zeros((len(active), len(active)))
         if len(active):
             if not np.linalg.cond(compliance) * np.finfo(float).eps < INVERTED:
                 return None
             inverse = np.linalg.inv(compliance.T)
-        return Operator(lower=self.lower, pivot=self.pivot, active=active, answer=answers, inverse=inverse)
+        return Operator(*self.factor, active=active, answer=answers, inverse=inverse)
 
 
 def _gradient(rows: Rows, size: int) -> sp.csr_array:
@@ -116,31 +127,55 @@ def compiled_model(stepper: Stepper, settings: Settings, span: float) -> Compile
     matrix = sp.csr_array(
         model.inertia_and_stiffness(np.zeros(model.shape), 0.5 * span**2 * moments(settings.weight)[1])
     )
+    order = band_order(matrix)
+    if order is None:
+        return None
+    found = banded_factor(matrix, order)
+    if found is None:
+        return None
+    bodies, rows = bodies_of(model, order.place), rows_of(model, settings)
+    if bodies is None:
+        return None
+    assert isinstance(stepper.method, FixedPoint)
+    tolerance = stepper.method.tolerance
+    return CompiledModel(model=model, bodies=bodies, rows=rows, span=span, factor=found, tolerance=tolerance)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class BandOrder:
+    """Places (f,) of the unknowns in a band with ``width`` diagonals, after the ordering of Cuthill and McKee."""
+
+    place: IntArray
+    width: int
+
+
+def band_order(matrix: sp.csr_array) -> BandOrder | None:
+    """Order of a symmetric matrix (f, f) in a band; None if it is empty, or the band too large."""
     if not matrix.shape[0]:
         return None
     order = np.asarray(reverse_cuthill_mckee(matrix, symmetric_mode=True), np.int64)
     place = np.empty(len(order), np.int64)
     place[order] = np.arange(len(order))
-    entries = sp.tril(matrix[order][:, order], format="coo")
-    i, j = entries.coords
-    width = int((i - j).max(initial=0)) + 1
-    if width * len(order) > LARGEST:
-        return None
-    band, lower, pivot = np.zeros((len(order), width)), np.zeros((len(order), width)), np.zeros(len(order))
-    band[i, i - j] = entries.data
+    i, j = sp.coo_array(matrix).coords
+    width = int(np.abs(place[i] - place[j]).max(initial=0)) + 1
+    return None if width * len(order) > LARGEST else BandOrder(place, width)
+
+
+def banded_factor(matrix: sp.csr_array, order: BandOrder) -> BandFactor | None:
+    """Factor in a band; None if the matrix is not positive definite."""
+    entries = sp.coo_array(matrix)
+    i, j = (order.place[c] for c in entries.coords)
+    below, shape = i >= j, (matrix.shape[0], order.width)
+    band, lower, pivot = np.zeros(shape), np.zeros(shape), np.zeros(shape[0])
+    band[i[below], (i - j)[below]] = entries.data[below]
     if not factor(band, lower, pivot):
         return None
-    bodies, rows = _bodies(model, place), _rows(model, settings)
-    if bodies is None:
-        return None
-    assert isinstance(stepper.method, FixedPoint)
-    tolerance = stepper.method.tolerance
-    return CompiledModel(
-        model=model, bodies=bodies, rows=rows, span=span, lower=lower, pivot=pivot, tolerance=tolerance
-    )
+    down, up = (np.zeros((shape[0], shape[1] + 3)) for _ in range(2))
+    spread_factor(lower, down, up)
+    return BandFactor(down, up, pivot)
 
 
-def _bodies(model: Model, place: IntArray) -> Bodies | None:
+def bodies_of(model: Model, place: IntArray) -> Bodies | None:
     """Arrays of the solids; ``place`` (f,) are the places of the unknowns in the band.
 
     None where translations cause forces.
@@ -177,7 +212,7 @@ def _bodies(model: Model, place: IntArray) -> Bodies | None:
     )
 
 
-def _rows(model: Model, settings: Settings) -> Rows:
+def rows_of(model: Model, settings: Settings) -> Rows:
     """Arrays of the contact rows."""
     rows = model.contacts.rest(np.zeros(model.shape), 0.0).start(np.zeros(model.shape))
     gradient = sp.csr_array(rows.gradient)

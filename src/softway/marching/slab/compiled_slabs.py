@@ -5,7 +5,7 @@ import numpy as np
 from softway.arrays import Array
 from softway.kernels.jit.by_address import packed
 from softway.kernels.slab.march import slabs
-from softway.kernels.slab.tables import ITERATIONS, MET, SUMS, Course, Work
+from softway.kernels.slab.tables import ITERATIONS, MET, SUMS, Bodies, Course, Rows, Work
 from softway.kernels.slab.works import WORKS
 from softway.marching.slab.compiled_model import CompiledModel
 from softway.marching.slab.slab_batch import SlabBatch, contractions
@@ -38,11 +38,11 @@ def next_batch(
     wanted = int(min(left, TOGETHER, max(1, NUMBERS // (8 * now.start.displacement.size))))
     if operator is None or wanted < 1:
         return None
-    course = _course(model, now, wanted, compiled.span)
+    course = new_course(model, now, wanted, compiled.span)
     account = march_state.account
     start = account.energy_start - account.dissipation - account.remeshing
     told = np.array([start, account.work_external, account.energy_error])
-    work = _work(compiled)
+    work = new_work(compiled.bodies, compiled.rows)
     tables = [packed(each) for each in (compiled.bodies, compiled.rows, operator, course, work)]
     places = np.array([each.ctypes.data for each in tables])
     count = slabs(places, compiled.tolerance, told, wanted)
@@ -57,12 +57,11 @@ def next_batch(
         iterations=iterations,
         contractions=contractions(course.sums[:count], iterations),
         pairs=model.contacts.rest(model.displacement, 0.0).found,
-        scalars={part.name: 0.0 for part in model.parts},
         states={0: before},
     )
 
 
-def _course(model: Model, now: ModelState, wanted: int, span: float) -> Course:
+def new_course(model: Model, now: ModelState, wanted: int, span: float) -> Course:
     """Room for states of so many slabs, the first one given."""
     size, m = now.start.displacement.size, len(now.pressure)
 
@@ -84,15 +83,16 @@ def _course(model: Model, now: ModelState, wanted: int, span: float) -> Course:
         force=room(now.start.force, size),
         pressure=room(now.pressure, m),
         energy=room(now.start.energy, len(now.start.energy)),
+        scalar=np.zeros((wanted, len(model.parts))),
         support=np.empty((wanted if supported else 0, size)),
         sums=np.empty((wanted, SUMS)),
         met=np.empty((wanted, len(model.contacts.labels), MET)),
     )
 
 
-def _work(compiled: CompiledModel) -> Work:
+def new_work(bodies: Bodies, rows: Rows) -> Work:
     """Work space of a call."""
-    size, groups = len(compiled.bodies.heavy), int(compiled.bodies.group.max()) + 1
+    size, groups = len(bodies.heavy), int(bodies.group.max()) + 1
     fields = np.zeros((5, size))
     return Work(
         q=fields[0],
@@ -100,7 +100,7 @@ def _work(compiled: CompiledModel) -> Work:
         before=fields[2],
         after=fields[3],
         push=fields[4],
-        row=np.zeros(len(compiled.rows.offset)),
+        row=np.zeros(len(rows.offset)),
         group=np.zeros((groups, 3)),
-        works=np.zeros((len(compiled.bodies.floor), WORKS)),
+        works=np.zeros((len(bodies.floor), WORKS)),
     )

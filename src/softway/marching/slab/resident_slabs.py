@@ -104,7 +104,6 @@ def next_resident(
         iterations=iterations,
         contractions=contractions(sums[: len(lengths)], iterations),
         pairs=model.contacts.rest(model.displacement, 0.0).found,
-        scalars={part.name: 0.0 for part in model.parts},
         states={0: before},
         lengths=tuple(lengths),
     )
@@ -169,6 +168,7 @@ def _course(resident: ResidentModel, states: list[Any], sums: Array, met: Array)
         force=rows("force"),
         pressure=rows("pressure"),
         energy=np.array([state.energy for state in states]),
+        scalar=np.zeros((count - 1, len(model.parts))),
         support=cast(Array, Kept(supported, support)),
         sums=sums,
         met=met,

@@ -31,12 +31,16 @@ class SlabBatch:
         States and sums of the slabs, and number of iterations of each.
     contractions
         Mean ratio of successive changes in each slab.
-    pairs, scalars
-        Pairs of the contact search, and scalars of the solids: the same in all slabs.
+    pairs
+        Pairs of the contact search, the same in all slabs.
     states
         States that were asked for, by the number of slabs before them.
     lengths
         Length of the slab after each of them [s]; by default that of the march.
+    shapes
+        Least shape of the cells after each of them (slabs,); None where it is not known.
+    worn
+        True if the last of them has worn the operator.
     """
 
     model: Model
@@ -46,9 +50,10 @@ class SlabBatch:
     iterations: tuple[int, ...]
     contractions: tuple[float, ...]
     pairs: int
-    scalars: Mapping[str, float]
     states: dict[int, State]
     lengths: tuple[float, ...] = ()
+    shapes: Array | None = None
+    worn: bool = False
 
     def state(self, count: int) -> State:
         """State after so many slabs; made when it is asked for, and then kept."""
@@ -58,7 +63,8 @@ class SlabBatch:
 
     def memory_after(self, count: int) -> OperatorMemory:
         """Operator memory after so many slabs."""
-        return replace(self.memory, taken=self.memory.taken.with_slabs(self.iterations[:count]))
+        taken = self.memory.taken.with_slabs(self.iterations[:count])
+        return replace(self.memory, taken=taken, stale=self.worn and count == len(self.iterations))
 
     def march_state(self, count: int) -> MarchState:
         """State of the march after so many slabs."""

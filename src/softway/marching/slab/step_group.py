@@ -103,8 +103,8 @@ class StepGroup:
         return GroupNumbers(
             slab=self.slab,
             ledger=_ledger(batch, sums, contacts),
-            certificate=_certificate(sums, self._errors, contacts),
-            report=_report(batch, iterations, ratios),
+            certificate=_certificate(sums, self._errors, contacts, self._shapes),
+            report=_report(batch, iterations, ratios, batch.course.scalar[which].T),
         )
 
     @property
@@ -135,8 +135,9 @@ class StepGroup:
         batch, which = self.batch, slice(self.start, self.stop)
         course, labels = batch.course, self.model.contacts.labels
         time, sums, met = course.time.tolist(), course.sums[which].tolist(), course.met[which].tolist()
-        errors: list[Any] = self._errors.tolist()
-        for k, (row, error, at_contacts) in enumerate(zip(sums, errors, met, strict=True), self.start):
+        errors, scalars, shapes = self._errors.tolist(), course.scalar[which].tolist(), self._shapes.tolist()
+        rows = zip(sums, errors, met, scalars, shapes, strict=True)
+        for k, (row, error, at_contacts, scalar, shape) in enumerate(rows, self.start):
             slab = Slab(start=time[k], end=time[k + 1], weight=batch.begun.settings.weight)
             for _ in range(0 if cancel is None else 1 + batch.iterations[k]):
                 heed(cancel, slab.start)
@@ -145,9 +146,9 @@ class StepGroup:
                 model=batch.model,
                 slab=slab,
                 ledger=_ledger(batch, row, contacts, course.sums[k]),
-                certificate=_certificate(row, error, contacts),
+                certificate=_certificate(row, error, contacts, shape),
                 events=(),
-                report=_report(batch, batch.iterations[k], batch.contractions[k]),
+                report=_report(batch, batch.iterations[k], batch.contractions[k], scalar),
                 states=BatchStates(batch=batch, number=k),
             )
 
@@ -168,6 +169,12 @@ class StepGroup:
         )[self.start :]
 
     @property
+    def _shapes(self) -> Any:
+        """Least shapes of the cells after the slabs (slabs,)."""
+        shapes = self.batch.shapes
+        return np.full(len(self), np.nan) if shapes is None else shapes[self.start : self.stop]
+
+    @property
     def _contacts(self) -> Mapping[str, ContactLedger]:
         """Audits of the contacts."""
         met: Any = self.batch.course.met[self.start : self.stop]
@@ -183,8 +190,8 @@ def in_steps(groups: Iterator[Step | StepGroup], cancel: Cancel | None = None) -
             yield one
 
 
-def _report(batch: SlabBatch, iterations: int, ratio: float) -> Report:
-    """Report on slabs with these numbers of iterations and ratios of successive changes."""
+def _report(batch: SlabBatch, iterations: int, ratio: float, scalars: Any) -> Report:
+    """Report on slabs with these numbers of iterations, ratios of successive changes, and scalars of the solids."""
     return Report(
         iterations=iterations,
         pairs=batch.pairs,
@@ -192,7 +199,7 @@ def _report(batch: SlabBatch, iterations: int, ratio: float) -> Report:
         renewals=batch.memory.renewals,
         passes=1,
         contraction=ratio,
-        scalars=batch.scalars,
+        scalars={part.name: a for part, a in zip(batch.model.parts, scalars, strict=True)},
     )
 
 
@@ -219,8 +226,10 @@ def _ledger(batch: SlabBatch, row: Any, contacts: Mapping[str, ContactLedger], s
     )
 
 
-def _certificate(row: Any, error: Any, contacts: Mapping[str, ContactLedger]) -> Certificate:
-    """Certificate of slabs from their sums; ``error`` is that of the energy balance before each [J]."""
+def _certificate(row: Any, error: Any, contacts: Mapping[str, ContactLedger], shape: Any) -> Certificate:
+    """Certificate of slabs from their sums; ``error`` is that of the energy balance before each [J], ``shape`` the
+    least shape of the cells.
+    """
     return Certificate(
         min_gap=reduce(_lower, (c.min_gap for c in contacts.values()), np.inf),
         min_force=0.0,
@@ -228,6 +237,7 @@ def _certificate(row: Any, error: Any, contacts: Mapping[str, ContactLedger]) ->
         power_residual=row[POWER],
         momentum_error=row[UNCLOSED],
         energy_error=row[ERROR] - error,
+        shape=shape,
     )
 
 

@@ -4,10 +4,9 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.bodies.assembled.vector_space import LocalSpace, VectorSpace
+from softway.tolerances import INDEPENDENT
 
 ONE = LocalSpace(())
-INDEPENDENT = 1e-13
-"""Least eigenvalue of the Gram matrix of unit residual differences that is used."""
 
 
 class Anderson:

@@ -1,0 +1,1 @@
+"""Compiled slabs (time steps) of solids with stored energies of large deformation."""
