@@ -90,6 +90,7 @@ def test_the_force_of_case_e02_through_new_cells() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.few(2)
 @pytest.mark.parametrize("alpha", [0.05, 0.2, 0.5])
 def test_the_inner_radius_of_case_e03_through_new_cells(alpha: float) -> None:
     """Change of the inner radius at half height, and the force; the case allows .02 and 2 per cent."""
