@@ -154,6 +154,24 @@ def passed_by_address(kind: type) -> type:
     return kind
 
 
+def caller(kind: Tuple) -> Callable[[int, Any], Any]:
+    """Function for kernels that calls a function at an address with a named tuple of this kind, and returns a number.
+
+    The function is compiled once; kernels contain none of its code.
+    """
+
+    @intrinsic
+    def call(typing, address, given):
+        def generate(context, builder, signature, args):
+            place = builder.bitcast(cgutils.alloca_once_value(builder, args[1]), ir.IntType(8).as_pointer())
+            function = ir.FunctionType(ir.IntType(64), [place.type]).as_pointer()
+            return builder.call(builder.inttoptr(args[0], function), [place])
+
+        return (types.int64(types.int64, given), generate) if given == kind.whole else None
+
+    return call  # type: ignore[no-any-return]
+
+
 def _whole(value: Any, context: Any) -> Any:
     """Numba type of a named tuple by value, with the tuples in it by value."""
     parts = [_whole(v, context) if hasattr(v, "_fields") else typeof_impl(v, context) for v in value]

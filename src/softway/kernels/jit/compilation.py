@@ -39,6 +39,7 @@ _SHARED = (
     "multibody/band.py",
     "rigid_contact/closed_stops.py",
     "rigid_contact/cone.py",
+    "rigid_contact/cone_call.py",
     "rigid_contact/contact.py",
     "rigid_course/stops.py",
     "rigid_contact/dense.py",
@@ -75,6 +76,11 @@ _ENDING = f"_{sha256(_SOURCES).hexdigest()[:12]}"
 def stage(function: Callable[..., None]) -> Stage:
     """Compile a stage, which kernels call by its address, and cache it on disk."""
     return _kept(lambda **options: cfunc(_POINT, **options), function, _EXACT)
+
+
+def function_at(kind: Any, function: Callable[..., int]) -> Stage:
+    """Compile a function of the address of a named tuple, which kernels call by its address, and cache it on disk."""
+    return _kept(lambda **options: cfunc(types.int64(kind), **options), function, _EXACT)
 
 
 def kernel(function: Callable[..., Any]) -> Callable[..., Any]:

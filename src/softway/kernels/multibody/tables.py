@@ -141,7 +141,8 @@ class Space(NamedTuple):
     ``rate`` (r,) prescribed rates at the present state, ``jump`` (r,) impulses of the projection, and ``drive`` (m, 3)
     of each drive: the change in the slab, the rate at its start, and the mean force; ``driven`` (g,) groups whose
     drives move; ``kinetic``, ``rest`` (without the drives) and ``potential`` (g,) energies, ``mean`` (g, 3, 3) motions,
-    ``own`` (n, 3, 3) inertia in space, ``three`` (4, 3, 3) for systems of three equations.
+    ``own`` (n, 3, 3) inertia in space, ``three`` (4, 3, 3) for systems of three equations; ``cone`` (1,) the address of
+    the solution of contacts, where there are stops.
     """
 
     R0: Array
@@ -174,6 +175,7 @@ class Space(NamedTuple):
     mean: Array
     own: Array
     three: Array
+    cone: IntArray
 
 
 def space(joints: Joints, bodies: int, groups: int, given: bool = False) -> Space:
@@ -213,4 +215,5 @@ def space(joints: Joints, bodies: int, groups: int, given: bool = False) -> Spac
         mean=np.zeros((groups, 3, 3)),
         own=np.zeros((n, 3, 3)),
         three=np.zeros((4, 3, 3)),
+        cone=np.zeros(1, dtype=np.int64),
     )

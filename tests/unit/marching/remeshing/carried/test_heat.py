@@ -55,13 +55,17 @@ CASES = {
     "softens": (ELASTIC, CONSTANT, {"stiffness": STIFFNESS}),
     "capacity by temperature": (ELASTIC, CURVED, {}),
 }
+ALL = ("plastic", "softening quadrilaterals")
+"""Cases that have together what the others have one by one; these are for minutes."""
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize(
     "case",
     [
-        pytest.param(case, id=name, marks=[] if name in ("plastic", "softening quadrilaterals") else pytest.mark.minutes)
+        pytest.param(
+            case, id=name, marks=[] if name in ("plastic", "softening quadrilaterals") else pytest.mark.minutes
+        )
         for name, case in CASES.items()
     ],
 )
