@@ -141,7 +141,15 @@ def _address_of(kind, given, c):
     whole = c.unbox(kind.whole, given)
     place = cgutils.alloca_once_value(c.builder, whole.value)
     at = c.builder.bitcast(place, ir.IntType(8).as_pointer())
-    return NativeValue(at, is_error=whole.is_error, cleanup=whole.cleanup)
+
+    def release() -> None:
+        """Give back the references to arrays; Numba sees none behind an address."""
+        if whole.cleanup is not None:
+            whole.cleanup()
+        if c.context.enable_nrt:
+            c.context.nrt.decref(c.builder, kind.whole, whole.value)
+
+    return NativeValue(at, is_error=whole.is_error, cleanup=release)
 
 
 def passed_by_address(kind: type) -> type:
