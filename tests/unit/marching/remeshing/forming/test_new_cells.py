@@ -106,7 +106,8 @@ def test_bar_of_case_d09_with_new_cells() -> None:
     assert abs(steps[-1].ledger.remeshing) < 1e-11 * whole
 
 
-@pytest.mark.parametrize("cell", ["tri3", pytest.param("tri6", marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("cell", ["tri3", "tri6"])
 def test_press_with_new_cells(cell: str) -> None:
     steps = pressed(Remesh(by="new cells", quality=0.5), 0.4, 20, cell)
     changes = [one for one in steps if one.exchanges]
