@@ -12,7 +12,7 @@ from softway.kernels.rigid_contact.cone import solve_cone
 
 
 class Cones(NamedTuple):
-    """Arguments of :func:`~softway.kernels.rigid_contact.cone.solve_cone`, all arrays contiguous."""
+    """Arguments of ``solve_cone``, all arrays contiguous."""
 
     W: Array
     b: Array
@@ -31,7 +31,7 @@ _call = caller(_KIND)
 
 @cache
 def cone() -> Stage:
-    """Function with an address that kernels have in their work space (:class:`~softway.kernels.multibody.Space`)."""
+    """Function with an address that kernels have in their work space."""
     return function_at(_KIND, _solved)
 
 
