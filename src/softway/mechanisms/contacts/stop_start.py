@@ -24,13 +24,13 @@ def stop_march(it: Arrays, room: Space, mechanism: Mechanism) -> StopMarch:
             sliding = mine[1:dim]
             room.rate[sliding] = it.joints.B[sliding] @ in_space(stop.velocity)
     blocks = 1 if rows.shape[1] <= dim else dim
-    coefficients = [[law.friction, law.rolling, law.drilling] for law in laws]
+    coefficients = [[law.friction, law.rolling, law.drilling][:blocks] for law in laws]
     found = Stops(
         it=it,
         room=room,
         rows=rows,
         restitution=np.array([stops[name].restitution for name in names], dtype=float),
-        friction=np.array(coefficients, dtype=float)[:, :blocks],
+        friction=np.array(coefficients, dtype=float),
         static=np.array([law.at_rest for law in laws], dtype=float),
         located=np.array([law.mu_s is not None for law in laws], dtype=bool),
         names=names,
