@@ -8,7 +8,7 @@ DOCS := .venv-docs
 # Without bytecode every process would compile all sources again, and pytest all tests.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help demo test test-slow test-pages test-processors test-mpi test-gpu test-view coverage check bench bench-page bench-check bench-smoke kills manual fuzz drops endurance docs clean
+.PHONY: help demo test test-slow test-pages test-processors test-mpi test-gpu test-view coverage check lint bench bench-page bench-check bench-smoke kills manual fuzz drops endurance docs clean
 
 help:
 	@echo "make demo   both examples and the drop of a part: tables, and pictures in demo/"
@@ -21,6 +21,7 @@ help:
 	@echo "make test-view the page of softway view in a Chromium without a screen, which has to be there"
 	@echo "make coverage  the same, with the lines and branches that did not run"
 	@echo "make check  ruff, mypy, import-linter, house rules"
+	@echo "make lint   the same without the house rules, which are tests of make test"
 	@echo "make bench  all measurements: docs/verification/benchmarks.md and benchmarks/results/latest.json; BENCH=--quick for a few"
 	@echo "make bench-check  a few measurements against the stored ones: fails where a ratio got worse by a fifth"
 	@echo "make bench-page   the page without the figures of code that has changed since, in a second"
@@ -80,12 +81,14 @@ test-view: $(TEST)/ready
 coverage: $(TEST)/ready
 	$(TEST)/bin/python -m pytest -n $(JOBS) --dist loadscope -m "not minutes" --cov --cov-report=term-missing:skip-covered
 
-check: $(TEST)/ready
+check: lint
+	$(TEST)/bin/python -m pytest -q tests/house
+
+lint: $(TEST)/ready
 	$(TEST)/bin/ruff check .
 	$(TEST)/bin/ruff format --check .
 	$(TEST)/bin/mypy
 	$(TEST)/bin/lint-imports
-	$(TEST)/bin/python -m pytest -q tests/house
 
 bench: $(TEST)/ready
 	$(TEST)/bin/python benchmarks/run.py $(BENCH)

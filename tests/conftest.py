@@ -1,5 +1,6 @@
 """What all tests share: pictures without a screen, reproducible generated cases, processes that can be interrupted,
-one registry of units, few values of tests that have many, and which tests of several processes stay together.
+one registry of units, few values of tests that have many, files without slow tests unread where those are asked for,
+and which tests of several processes stay together.
 """
 
 import gc
@@ -7,6 +8,7 @@ import signal
 from collections import defaultdict
 from collections.abc import Iterator
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import matplotlib as mpl
@@ -30,6 +32,13 @@ Units.standard = staticmethod(cache(OWN_UNITS))  # a quarter of a second for eac
 def own_units(monkeypatch: pytest.MonkeyPatch) -> None:
     """Every reader makes a registry of units of its own, as outside of the tests."""
     monkeypatch.setattr(Units, "standard", OWN_UNITS)
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """Files that do not name the mark are not imported where slow tests are asked for: every process collects all."""
+    if not str(config.getoption("markexpr")).startswith("slow") or collection_path.suffix != ".py":
+        return None
+    return True if "mark.slow" not in collection_path.read_text(encoding="utf-8") else None
 
 
 @pytest.hookimpl(wrapper=True)

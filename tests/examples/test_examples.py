@@ -1,4 +1,6 @@
-"""Every example of the gallery runs: its assertions hold, it prints figures and draws pictures."""
+"""Examples of the gallery run: their assertions hold, they print figures and draw pictures.  ``make docs`` runs all of
+them.
+"""
 
 import runpy
 from pathlib import Path
@@ -11,6 +13,7 @@ pytestmark = pytest.mark.slow
 EXAMPLES = sorted((Path(__file__).parents[2] / "examples" / "gallery").rglob("*.py"))
 
 
+@pytest.mark.few(4)
 @pytest.mark.parametrize(
     "example",
     [

@@ -57,7 +57,7 @@ def test_the_audit_finds_what_the_file_says(name, tmp_path):
 
 
 @pytest.mark.slow
-@pytest.mark.few(12)
+@pytest.mark.few(6)
 @pytest.mark.parametrize("name", each())
 def test_balances_hold_in_every_slab(name, tmp_path, monkeypatch):
     """Small variants, with a frame and an audit at each slab."""

@@ -11,7 +11,7 @@ from variants import each, small
 pytestmark = pytest.mark.slow
 
 
-@pytest.mark.few(12)
+@pytest.mark.few(6)
 @pytest.mark.parametrize("name", each())
 def test_a_resumed_run_has_the_same_bits(name, tmp_path):
     given = small(name)

@@ -258,6 +258,7 @@ def flown(name: str, expansion: float, plate: bool) -> tuple[sw.Step, ...]:
 
 
 @pytest.mark.slow
+@pytest.mark.few(4)
 @pytest.mark.parametrize("plate", [False, True], ids=["bar", "plate"])
 @pytest.mark.parametrize("name", IMPACTS)
 def test_an_impact_keeps_energy_and_entropy_never_falls(name: str, plate: bool) -> None:

@@ -17,6 +17,7 @@ from softway.mechanisms import (
     StopEvent,
     march,
 )
+from softway.mechanisms.walk import walk_of
 
 
 def events(mechanism: Mechanism, until: float, step: float) -> tuple[list[StopEvent], list]:
@@ -218,3 +219,16 @@ def test_a_weight_rests_on_the_limit_of_its_hinge() -> None:
     x, y = steps[-1].bodies["arm"].centre
     assert np.arctan2(y, x) == pytest.approx(-0.3, abs=1e-12)
     assert steps[-1].dissipation == pytest.approx(2.0 * 9.81 * 0.5 * np.sin(0.3), rel=1e-9)
+
+
+@pytest.mark.parametrize("rolling", [0.0, 1e-3])
+def test_tables_of_stops_are_contiguous(rolling: float) -> None:
+    """Kernels are compiled again for arrays of another kind."""
+    stop = PlaneStop(
+        between=("ground", "ball"), point=(0.0, 1.0), plane=(0.0, 0.0), normal=(0.0, 1.0), friction=0.3, rolling=rolling
+    )
+    ball = Rigid(mass=1.0, centre=(0.0, 2.0), inertia=1.0)
+    walk = walk_of(Mechanism(bodies={"ball": ball}, stops={"floor": stop}), 1.0, 0.1, 1, None)
+    assert walk.stops is not None
+    tables = (walk.it.bodies, walk.it.motion, walk.room, walk.stops.stops.table)
+    assert all(array.flags.c_contiguous and array.flags.writeable for table in tables for array in table)

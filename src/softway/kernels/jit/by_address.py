@@ -2,18 +2,29 @@
 
 Numba passes a tuple of arrays by value, seven numbers for each array, so that functions that share tuples are best
 inlined, and are compiled again in each of their callers.  A table by address is one pointer: a call takes a few
-nanoseconds, and an access loads one array.
+nanoseconds, and an access loads one array.  Its address is a number (``table``), or taken of a named tuple at the
+entry of a kernel (``passed_by_address``).
 """
 
 from collections.abc import Callable
+from hashlib import sha256
 from typing import Any, NamedTuple
 
 import numpy as np
 from llvmlite import ir
 from numba import types
+from numba.core import cgutils
 from numba.core.datamodel import models, register_default
+from numba.core.imputils import impl_ret_borrowed
 from numba.core.typing.templates import AttributeTemplate
-from numba.extending import infer_getattr, intrinsic, lower_getattr_generic
+from numba.extending import (
+    NativeValue,
+    infer_getattr,
+    intrinsic,
+    lower_getattr_generic,
+    typeof_impl,
+    unbox,
+)
 
 from softway.arrays import IntArray
 
@@ -96,6 +107,98 @@ def call_with(typing, address, place):
         return context.get_dummy_value()
 
     return types.none(types.int64, types.int64), generate
+
+
+class Tuple(types.Type):
+    """Numba type of the address of a named tuple; a tuple in it has its address, too."""
+
+    def __init__(self, whole: Any) -> None:
+        kind = f"{whole.instance_class.__name__}.{sha256(str(whole).encode()).hexdigest()[:12]}"
+        super().__init__(name=f"softway.{kind}")
+        self.whole = whole
+
+    def entry(self, name: str) -> Any:
+        """Type of an entry; None for another name."""
+        if name not in self.whole.fields:
+            return None
+        kind = self.whole.types[self.whole.fields.index(name)]
+        return Tuple(kind) if isinstance(kind, types.NamedTuple | types.NamedUniTuple) else kind
+
+
+register_default(Tuple)(lambda manager, kind: models.PrimitiveModel(manager, kind, ir.IntType(8).as_pointer()))
+
+
+@infer_getattr
+class _Parts(AttributeTemplate):
+    """Types of the entries of a named tuple by name."""
+
+    key = Tuple
+
+    def generic_resolve(self, kind: Any, name: str) -> Any:
+        """Type of an entry; None for another name."""
+        return kind.entry(name)
+
+
+@lower_getattr_generic(Tuple)
+def _part(context, builder, kind, value, name):
+    """Load an entry of a named tuple; it does not change while a kernel runs."""
+    layout, entry = context.get_value_type(kind.whole), kind.entry(name)
+    at = [ir.Constant(ir.IntType(32), k) for k in (0, kind.whole.fields.index(name))]
+    place = builder.gep(builder.bitcast(value, layout.as_pointer()), at)
+    if isinstance(entry, Tuple):
+        return builder.bitcast(place, ir.IntType(8).as_pointer())
+    return impl_ret_borrowed(context, builder, entry, _loaded(builder, place, context.get_value_type(entry)))
+
+
+@unbox(Tuple)
+def _address_of(kind, given, c):
+    """Address of a named tuple whose entries are on the stack while the kernel runs."""
+    whole = c.unbox(kind.whole, given)
+    place = cgutils.alloca_once_value(c.builder, whole.value)
+    at = c.builder.bitcast(place, ir.IntType(8).as_pointer())
+
+    def release() -> None:
+        """Give back the references to arrays; Numba sees none behind an address."""
+        if whole.cleanup is not None:
+            whole.cleanup()
+        if c.context.enable_nrt:
+            c.context.nrt.decref(c.builder, kind.whole, whole.value)
+
+    return NativeValue(at, is_error=whole.is_error, cleanup=release)
+
+
+def passed_by_address(kind: type) -> type:
+    """Let kernels receive a class of named tuples by its address."""
+
+    @typeof_impl.register(kind)
+    def _(value, context):
+        return Tuple(_whole(value, context))
+
+    return kind
+
+
+def caller(kind: Tuple) -> Callable[[int, Any], Any]:
+    """Function for kernels that calls a function at an address with a named tuple of this kind, and returns a number.
+
+    The function is compiled once; kernels contain none of its code.
+    """
+
+    @intrinsic
+    def call(typing, address, given):
+        def generate(context, builder, signature, args):
+            place = builder.bitcast(cgutils.alloca_once_value(builder, args[1]), ir.IntType(8).as_pointer())
+            function = ir.FunctionType(ir.IntType(64), [place.type]).as_pointer()
+            return builder.call(builder.inttoptr(args[0], function), [place])
+
+        return (types.int64(types.int64, given), generate) if given == kind.whole else None
+
+    return call  # type: ignore[no-any-return]
+
+
+def _whole(value: Any, context: Any) -> Any:
+    """Numba type of a named tuple by value, with the tuples in it by value."""
+    parts = [_whole(v, context) if hasattr(v, "_fields") else typeof_impl(v, context) for v in value]
+    return types.BaseTuple.from_types(tuple(parts), type(value))
 
 
 def packed(arrays: NamedTuple) -> IntArray:

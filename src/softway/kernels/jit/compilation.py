@@ -41,6 +41,7 @@ _SHARED = (
     "multibody/band.py",
     "rigid_contact/closed_stops.py",
     "rigid_contact/cone.py",
+    "rigid_contact/cone_call.py",
     "rigid_contact/contact.py",
     "rigid_course/stops.py",
     "rigid_contact/dense.py",
@@ -89,6 +90,11 @@ def stage(function: Callable[..., None]) -> Stage:
 def task(function: Callable[..., None]) -> Stage:
     """Compile a function of the address of a table, which kernels call by its own address, and cache it on disk."""
     return _kept(lambda **options: cfunc(_TASK, **options), function, _EXACT)
+
+
+def function_at(kind: Any, function: Callable[..., int]) -> Stage:
+    """Compile a function of the address of a named tuple, which kernels call by its address, and cache it on disk."""
+    return _kept(lambda **options: cfunc(types.int64(kind), **options), function, _EXACT)
 
 
 def kernel(function: Callable[..., Any]) -> Callable[..., Any]:

@@ -5,8 +5,10 @@ from typing import NamedTuple
 import numpy as np
 
 from softway.arrays import Array, IntArray
+from softway.kernels.jit.by_address import passed_by_address
 
 
+@passed_by_address
 class Bodies(NamedTuple):
     """Rigid bodies (b + 1,), the ground last.
 
@@ -25,6 +27,7 @@ class Bodies(NamedTuple):
     supported: IntArray
 
 
+@passed_by_address
 class Angles(NamedTuple):
     """Angles (q,) by which the bodies b have turned about axes of the bodies a, which are also axes of b.
 
@@ -39,6 +42,7 @@ class Angles(NamedTuple):
     W: Array
 
 
+@passed_by_address
 class Drives(NamedTuple):
     """Prescribed changes (m,) of the values of rows since the start, as functions of time.
 
@@ -52,6 +56,7 @@ class Drives(NamedTuple):
     pieces: Array
 
 
+@passed_by_address
 class Joints(NamedTuple):
     """Rows (r,) of the joints, see :mod:`~softway.kernels.multibody.joint_rows`.
 
@@ -78,6 +83,7 @@ class Joints(NamedTuple):
     drives: Drives
 
 
+@passed_by_address
 class Springs(NamedTuple):
     """Springs with dampers (s,) between the points X of the bodies a and Y of b, and torques (t,) on bodies.
 
@@ -102,6 +108,7 @@ class Springs(NamedTuple):
     torsion: Array
 
 
+@passed_by_address
 class Motion(NamedTuple):
     """State of the bodies (b + 1,): places (b + 1, 3), unit quaternions (b + 1, 4), velocities (b + 1, 3) and angular
     velocities (b + 1, 3) in the axes of the bodies; ``angle`` (q,) with all turns [rad]; ``impulse`` (r,) through the
@@ -120,6 +127,7 @@ class Motion(NamedTuple):
     time: Array
 
 
+@passed_by_address
 class Space(NamedTuple):
     """Work space of the slabs (n bodies with the ground, r rows).
 
@@ -133,7 +141,8 @@ class Space(NamedTuple):
     ``rate`` (r,) prescribed rates at the present state, ``jump`` (r,) impulses of the projection, and ``drive`` (m, 3)
     of each drive: the change in the slab, the rate at its start, and the mean force; ``driven`` (g,) groups whose
     drives move; ``kinetic``, ``rest`` (without the drives) and ``potential`` (g,) energies, ``mean`` (g, 3, 3) motions,
-    ``own`` (n, 3, 3) inertia in space, ``three`` (4, 3, 3) for systems of three equations.
+    ``own`` (n, 3, 3) inertia in space, ``three`` (4, 3, 3) for systems of three equations; ``cone`` (1,) the address of
+    the solution of contacts, where there are stops.
     """
 
     R0: Array
@@ -166,6 +175,7 @@ class Space(NamedTuple):
     mean: Array
     own: Array
     three: Array
+    cone: IntArray
 
 
 def space(joints: Joints, bodies: int, groups: int, given: bool = False) -> Space:
@@ -205,4 +215,5 @@ def space(joints: Joints, bodies: int, groups: int, given: bool = False) -> Spac
         mean=np.zeros((groups, 3, 3)),
         own=np.zeros((n, 3, 3)),
         three=np.zeros((4, 3, 3)),
+        cone=np.zeros(1, dtype=np.int64),
     )

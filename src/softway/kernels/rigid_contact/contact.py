@@ -24,7 +24,8 @@ from softway.kernels.multibody.slab import (
     place_ends,
 )
 from softway.kernels.multibody.velocities import joint_velocity, project_velocities, push_row
-from softway.kernels.rigid_contact.cone import block, solve_cone
+from softway.kernels.rigid_contact.cone import block
+from softway.kernels.rigid_contact.cone_call import call_cone
 from softway.kernels.rigid_contact.routh import impulses_in_order
 
 SLIP = 1e-9
@@ -113,7 +114,7 @@ def solve_contact_slab(bodies, joints, springs, motion, space, rows, friction, h
         solve_band(space.lower, space.pivot, space.push)
         _offsets(joints, space, P, rows, C, h, b, x)
         b -= W @ x
-        if not solve_cone(W, b, friction, least, none, 0.0 * x, rounding, x):
+        if not call_cone(space, W, b, friction, least, none, 0.0 * x, rounding, x):
             break
         _add_impulses(space, P, rows, U, x, h)
         motion_of(bodies, joints, springs, motion, space, h, P, z, new)
@@ -196,10 +197,10 @@ def collide(bodies, joints, motion, space, rows, friction, through, rebound, low
                 axis[d * i + first : d * i + last] = through[d * i + first : d * i + last] / max(least[i, k], 1e-300)
     b -= W @ through
     rounding = _rounding(bodies, motion, speed)
-    found = solve_cone(W, b, friction, least, lower, axis, rounding, x)
+    found = call_cone(space, W, b, friction, least, lower, axis, rounding, x)
     if not found and np.abs(axis).max() > 0.0:
         x[:] = through
-        found = solve_cone(W, b, friction, least, lower, 0.0 * axis, rounding, x)
+        found = call_cone(space, W, b, friction, least, lower, 0.0 * axis, rounding, x)
     push_contacts(bodies, joints, motion, space, rows, x - through)
     return found
 

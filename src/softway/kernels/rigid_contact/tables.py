@@ -3,8 +3,10 @@
 from typing import NamedTuple
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.kernels.jit.by_address import passed_by_address
 
 
+@passed_by_address
 class StopTable(NamedTuple):
     """Stops (s,) of a mechanism in its present state, as :class:`~softway.mechanisms.contacts.stop_rows.Stops`.
 

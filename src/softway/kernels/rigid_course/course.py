@@ -5,6 +5,7 @@ from typing import NamedTuple
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.kernels.jit.by_address import passed_by_address
 from softway.kernels.jit.compilation import uncounted, uncounted_kernel
 from softway.kernels.multibody.energy import kinetic_energy, potential_energy
 from softway.kernels.multibody.slab import march_slabs
@@ -16,6 +17,7 @@ ITERATIONS, INDEPENDENT = 0, 1
 """Columns of the counts: iterations since the row before, and rows of joints that do not depend on others."""
 
 
+@passed_by_address
 class Course(NamedTuple):
     """States in k rows, of which each is ``every`` slabs after that before.
 

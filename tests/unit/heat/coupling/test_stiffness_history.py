@@ -218,6 +218,7 @@ def flown(law: RateLaw, table: sw.heat.StiffnessTable | None, until: float = 0.6
 
 
 @pytest.mark.slow
+@pytest.mark.few(3)
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 def test_an_adiabatic_bar_keeps_its_energy_and_entropy_never_falls(law: RateLaw) -> None:
     steps, kinetic = flown(law, CURVED), 0.06

@@ -1,5 +1,6 @@
 """Tables by address, and kernels that are interpreted for small arguments."""
 
+import sys
 from typing import NamedTuple
 
 import numpy as np
@@ -8,8 +9,18 @@ import pytest
 from softway.arrays import Array, BoolArray, IntArray
 from softway.kernels.assembly.merged_pattern import merged_pattern
 from softway.kernels.assembly.node_pairs import expanded, node_pairs
-from softway.kernels.jit.by_address import BLOCKS, FLAGS, NUMBERS, ROWS, WHOLE, WHOLES, packed, table
-from softway.kernels.jit.compilation import called, interpreted, uncounted_kernel
+from softway.kernels.jit.by_address import (
+    BLOCKS,
+    FLAGS,
+    NUMBERS,
+    ROWS,
+    WHOLE,
+    WHOLES,
+    packed,
+    passed_by_address,
+    table,
+)
+from softway.kernels.jit.compilation import called, interpreted, kernel, uncounted_kernel
 
 
 class Parts(NamedTuple):
@@ -85,3 +96,58 @@ def same(one, other) -> None:
     for a, b in zip(one, other, strict=True):
         assert a.dtype == b.dtype
         np.testing.assert_array_equal(a, b)
+
+
+@passed_by_address
+class Inner(NamedTuple):
+    """A tuple that is an entry of another one."""
+
+    numbers: Array
+    ends: IntArray
+
+
+@passed_by_address
+class Outer(NamedTuple):
+    """Arrays, a number, and a tuple."""
+
+    rows: Array
+    inner: Inner
+    width: int
+    other: Array
+
+
+@called
+def _last(inner):
+    return inner.numbers[inner.ends[1]]
+
+
+@kernel
+def _entries(outer):
+    """Entries of both tuples; arrays are changed, made and given back."""
+    outer.rows[1] = outer.inner.numbers
+    kept = outer.other.copy()
+    kept += outer.other
+    outer.other[:] = kept
+    return outer.rows[0, 1] + outer.width * _last(outer.inner)
+
+
+def test_entries_of_a_named_tuple_and_of_one_in_it() -> None:
+    inner = Inner(numbers=np.array([3.0, 5.0, 8.0]), ends=np.array([0, 2]))
+    outer = Outer(rows=np.arange(6.0).reshape(2, 3), inner=inner, width=4, other=np.array([1.0]))
+    arrays = [outer.rows, outer.other, *inner]
+    before = [sys.getrefcount(array) for array in arrays]
+    for turn in range(3):
+        assert _entries(outer) == pytest.approx(1.0 + 4.0 * 8.0)
+        assert outer.other[0] == pytest.approx(2.0 ** (turn + 1))
+    assert outer.rows[1] == pytest.approx(inner.numbers)
+    assert [sys.getrefcount(array) for array in arrays] == before
+
+
+def test_a_named_tuple_with_other_arrays_is_another_kind() -> None:
+    """Rows that are not contiguous are read by their strides."""
+    inner = Inner(numbers=np.array([3.0, 5.0, 8.0]), ends=np.array([0, 2]))
+    rows = np.arange(12.0).reshape(2, 6)[:, ::2]
+    outer = Outer(rows=rows, inner=inner, width=1, other=np.zeros(1))
+    assert _entries(outer) == pytest.approx(2.0 + 8.0)
+    assert rows[1] == pytest.approx(inner.numbers)
+    assert len(_entries.signatures) == 2

@@ -1,9 +1,15 @@
 """Impulses of contacts with friction: the laws hold for random bodies, also where their compliance is singular."""
 
+from typing import NamedTuple
+
 import numpy as np
 import pytest
 
+from softway.arrays import IntArray
+from softway.kernels.jit.by_address import passed_by_address
+from softway.kernels.jit.compilation import kernel
 from softway.kernels.rigid_contact.cone import solve_cone
+from softway.kernels.rigid_contact.cone_call import call_cone, cone
 from softway.kernels.rigid_contact.dense import solve_dense
 
 BLOCKS = {(1, 1): [], (2, 1): [(1, 2)], (3, 1): [(1, 3)], (3, 2): [(1, 2), (2, 3)], (6, 3): [(1, 3), (3, 5), (5, 6)]}
@@ -69,3 +75,26 @@ def test_dependent_rows_of_a_consistent_system_take_no_part() -> None:
     x = b.copy()
     solve_dense(A.copy(), x)
     np.testing.assert_allclose(A @ x, b, atol=1e-14)
+
+
+@passed_by_address
+class Room(NamedTuple):
+    """Work space with the address of the solution."""
+
+    cone: IntArray
+
+
+@kernel
+def _called(room, W, b, friction, least, lower, axis, rounding, x):
+    return call_cone(room, W, b, friction, least, lower, axis, rounding, x)
+
+
+def test_the_same_bits_by_the_address() -> None:
+    rng, room = np.random.default_rng(3), Room(cone=np.array([cone().address]))
+    for count in (0, 1, 3):
+        A = rng.normal(size=(3 * count, 3 * count))
+        W, b, friction = A @ A.T, rng.normal(size=3 * count), rng.uniform(0.0, 1.0, (count, 1))
+        given = (W, b, friction, np.zeros((count, 1)), np.zeros(count), np.zeros(3 * count), 0.0)
+        one, other = np.zeros(3 * count), np.zeros(3 * count)
+        assert _called(room, *given, one) == solve_cone(*given, other) == 1
+        assert one.tobytes() == other.tobytes()

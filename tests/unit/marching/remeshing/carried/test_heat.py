@@ -55,10 +55,20 @@ CASES = {
     "softens": (ELASTIC, CONSTANT, {"stiffness": STIFFNESS}),
     "capacity by temperature": (ELASTIC, CURVED, {}),
 }
+ALL = ("plastic", "softening quadrilaterals")
+"""Cases that have together what the others have one by one; these are for minutes."""
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", CASES.values(), ids=CASES)
+@pytest.mark.parametrize(
+    "case",
+    [
+        pytest.param(
+            case, id=name, marks=[] if name in ("plastic", "softening quadrilaterals") else pytest.mark.minutes
+        )
+        for name, case in CASES.items()
+    ],
+)
 def test_first_and_second_law(case: tuple[object, object, dict[str, object]]) -> None:
     law, heat, given = case
     scene = thrown(law, heat, **given)  # type: ignore[arg-type]

@@ -44,6 +44,7 @@ def adapted(scene: sw.Scene, until: float, step: float, adapt: Adapt) -> list[sw
 
 
 @pytest.mark.slow
+@pytest.mark.few(3)
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS)
 def test_balances_and_dissipation(law: object) -> None:
     scene = thrown(law)

@@ -58,6 +58,7 @@ def test_a_new_mesh_for_a_slab_that_fails(monkeypatch: pytest.MonkeyPatch) -> No
     assert not is_first(steps[-1].model)
 
 
+@pytest.mark.slow
 def test_the_old_mesh_for_a_slab_that_fails_on_a_new_one(monkeypatch: pytest.MonkeyPatch) -> None:
     kept = forged(KEPT, REDUCTION, COUNT, CELLS)
     failing(monkeypatch, lambda stepper, time: not on_first(stepper))

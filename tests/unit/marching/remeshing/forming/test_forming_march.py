@@ -18,8 +18,8 @@ from softway.meshes.adaptive.adapt import Adapt
 @pytest.mark.parametrize(
     "material",
     [
-        pytest.param(LAW, id="norton_hoff", marks=pytest.mark.slow),
-        pytest.param(sw.J2(E=1e3, nu=0.3, yield_stress=1.0), id="j2"),
+        pytest.param(LAW, id="norton_hoff", marks=pytest.mark.minutes),
+        pytest.param(sw.J2(E=1e3, nu=0.3, yield_stress=1.0), id="j2", marks=pytest.mark.slow),
     ],
 )
 def test_force_volume_and_energy_through_new_meshes(material: Material) -> None:

@@ -48,6 +48,7 @@ def volume(one: sw.Step) -> float:
     return volume_of(part.mesh.blocks, part.internal.section, part.mesh.points + one.after.displacement["body"])
 
 
+@pytest.mark.slow
 def test_a_block_pressed_to_half_of_its_height() -> None:
     steps = pressed(block(HOW), 0.5, 20)
     assert len(changes(steps)) >= 4

@@ -106,7 +106,8 @@ def test_bar_of_case_d09_with_new_cells() -> None:
     assert abs(steps[-1].ledger.remeshing) < 1e-11 * whole
 
 
-@pytest.mark.parametrize("cell", ["tri3", pytest.param("tri6", marks=pytest.mark.slow)])
+@pytest.mark.slow
+@pytest.mark.parametrize("cell", ["tri3", "tri6"])
 def test_press_with_new_cells(cell: str) -> None:
     steps = pressed(Remesh(by="new cells", quality=0.5), 0.4, 20, cell)
     changes = [one for one in steps if one.exchanges]
@@ -199,6 +200,12 @@ def whole() -> list[sw.Step]:
     return list(sw.march(SCENE, **GIVEN))
 
 
+@pytest.fixture(scope="module")
+def kept() -> sw.Step:
+    """Last slab on the mesh that stays."""
+    return list(sw.march(press(KEPT), **GIVEN))[-1]
+
+
 @pytest.mark.parametrize("after", [-1, 0, 1])
 def test_the_same_bits(whole: list[sw.Step], after: int) -> None:
     """From the stored states before, at and after the second change."""
@@ -222,16 +229,18 @@ def matter_errors(whole: list[sw.Step], kept: sw.Step) -> list[float]:
 
 
 @pytest.mark.slow
-def test_the_matter_converges_on_other_cells(whole: list[sw.Step]) -> None:
+def test_the_matter_converges_on_other_cells(whole: list[sw.Step], kept: sw.Step) -> None:
     """On cells of half the size the errors are less than half, those of one order."""
-    fine, kept = (list(sw.march(press(how, cells=(12, 10)), **GIVEN)) for how in (HOW, KEPT))
-    errors = matter_errors(whole, list(sw.march(press(KEPT), **GIVEN))[-1]), matter_errors(fine, kept[-1])
+    fine, finely_kept = (list(sw.march(press(how, cells=(12, 10)), **GIVEN)) for how in (HOW, KEPT))
+    errors = matter_errors(whole, kept), matter_errors(fine, finely_kept[-1])
     assert len(changes(fine)) >= 2
     assert errors[1][0] < 0.5 * errors[0][0] and errors[1][1] < 0.5 * errors[0][1]
 
 
 @pytest.mark.slow
-def test_a_failed_change_waits_until_the_cells_are_a_fifth_worse(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_failed_change_waits_until_the_cells_are_a_fifth_worse(
+    kept: sw.Step, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """Without a fit, the number of tries is that of the fifths that the worst cell loses; states are resumed alike."""
     tried: list[float] = []
 
@@ -240,8 +249,7 @@ def test_a_failed_change_waits_until_the_cells_are_a_fifth_worse(monkeypatch: py
 
     monkeypatch.setattr(forming_march, "replacement", none)
     steps = list(sw.march(SCENE, **GIVEN))
-    kept = list(sw.march(press(KEPT), **GIVEN))
-    assert np.array_equal(places(steps[-1]), places(kept[-1]))
+    assert np.array_equal(places(steps[-1]), places(kept))
     first = next(k for k, one in enumerate(steps) if one.after.time >= tried[0])
     assert 1 <= len(tried) < (len(steps) - first) / 2
     whole = tried.copy()

@@ -90,6 +90,7 @@ def test_the_force_of_case_e02_through_new_cells() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.few(2)
 @pytest.mark.parametrize("alpha", [0.05, 0.2, 0.5])
 def test_the_inner_radius_of_case_e03_through_new_cells(alpha: float) -> None:
     """Change of the inner radius at half height, and the force; the case allows .02 and 2 per cent."""
@@ -124,18 +125,15 @@ def punched(cell: str, how: Remeshing) -> list[sw.Step]:
 
 @pytest.mark.slow
 def test_a_ball_through_most_of_a_block() -> None:
-    """No fixed mesh keeps a good certificate to 80 per cent: quadrilaterals fold, triangles get flat, and both say so
-    with the cell, the time and what helps; it does.
+    """No fixed mesh keeps a good certificate to 80 per cent: triangles get flat, and say so with the cell, the time and
+    what helps; it does.  Quadrilaterals fold, see the next test.
     """
-    marches = {key: punched(*key) for key in (("quad4", None), ("tri3", None), ("tri3", "auto"))}
+    marches = {key: punched(*key) for key in (("tri3", None), ("tri3", "auto"))}
     shapes = {key: min(one.certificate.shape for one in steps) for key, steps in marches.items()}
-    assert shapes["quad4", None] < -0.5
     assert 0.0 < shapes["tri3", None] < FLAT
     assert shapes["tri3", "auto"] > 0.2
-    quads, triangles, steps = ([e for one in steps for e in one.events if e.finding] for steps in marches.values())
-    assert {e.kind for e in quads} == {INVERTED} and {e.kind for e in triangles} == {FLAT_CELL} and not steps
-    assert "has folded" in quads[0].finding and 0.2 < quads[0].time < 0.3
-    assert 'cells "tri3" with dilatation = "corner" and remesh = "auto"' in quads[0].finding
+    triangles, steps = ([e for one in steps for e in one.events if e.finding] for steps in marches.values())
+    assert {e.kind for e in triangles} == {FLAT_CELL} and not steps
     assert 'Remedy: remesh = "auto"' in triangles[0].finding and 0.5 < triangles[0].time < 0.6
     steps = marches["tri3", "auto"]
     mesh = steps[-1].model.parts[0].mesh
@@ -154,6 +152,9 @@ def test_a_folded_cell_is_a_finding_of_a_run(tmp_path: Path) -> None:
     (first, *_) = np.flatnonzero(shape <= 0.0)
     assert found["between"] == "body"
     assert found["first"] == pytest.approx(run.history["time"][first])
+    assert 0.15 < found["first"] < 0.25
+    assert 'cells "tri3" with dilatation = "corner" and remesh = "auto"' in found["text"]
     assert found["text"].startswith("cell 30 of 'body', at its node 35, has folded: scaled Jacobian -0.9")
+    assert run.summary["shape_worst"] < -0.5
     assert run.summary["shape_worst"] == pytest.approx(shape[1:].min())
     assert np.isnan(shape[0]) and (shape[1:first] > 0.0).all()
