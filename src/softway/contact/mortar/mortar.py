@@ -148,7 +148,7 @@ class MortarContact:
         normal = -unit(self.vertex_weights @ areas, axis=1)
         common = self.overlap(below, above, areas, normal)
         size = np.sqrt(np.sum(areas**2, axis=1))
-        functions = gap_weights(self.slave, below, size, common.mass(len(size)))
+        functions = gap_weights(tables.facets, below, size, common.mass(len(size)))
         gap, made = gap_rows(
             (tables.slave, tables.master, tables.facets),
             functions,
