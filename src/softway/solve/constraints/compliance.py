@@ -9,6 +9,7 @@ import scipy.sparse as sp
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.dof_map import DofMap
 from softway.contact.contact_rows import ContactRows
+from softway.kernels.linalg.congruence import congruence_of_columns
 from softway.kernels.linalg.dense import DenseFactor
 from softway.solve.constraints.column_cache import ColumnCache
 from softway.solve.constraints.recent_factor import RecentFactor
@@ -189,6 +190,13 @@ class FrozenOperator:
             return np.zeros((0, 0))
         self.fill(which)
         return self._times(self.table.square(which))
+
+    def folded(self, rows: sp.csr_array) -> Array:
+        """Compliance ``C B^T A^-1 B C^T`` (k, k) of rows C (k, b) along the directions."""
+        if not rows.nnz:
+            return np.zeros((rows.shape[0], rows.shape[0]))
+        self.fill(np.unique(rows.indices))
+        return self._times(congruence_of_columns(rows, self.table.stored, self.table.place, self.table.extent))
 
     def solve_push(self, push: Array) -> Array:
         """Solution ``R A^-1 B push`` (f,) for forces ``push`` (b,) along the directions."""

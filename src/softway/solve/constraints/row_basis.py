@@ -6,7 +6,6 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
-from softway.kernels.linalg.congruence import congruence
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -68,10 +67,6 @@ class CombinedRows:
     def subset(self, which: IntArray) -> "CombinedRows":
         """Subset of the rows."""
         return CombinedRows(sp.csr_array(self.matrix[which]))
-
-    def folded(self, compliance: Array) -> Array:
-        """Compliance (m, m) of the rows from that of the used directions (k, k)."""
-        return congruence(sp.csr_array(self.matrix[:, self.used]), compliance)
 
 
 RowCoefficients = UnitRows | CombinedRows
