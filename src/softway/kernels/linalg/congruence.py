@@ -36,7 +36,9 @@ def congruence_of_columns(rows: sp.csr_array, columns: Array, place: IntArray, e
     >>> congruence_of_columns(sp.csr_array([[1.0, 2.0, 0.0]]), columns, np.array([1, 0, -1])).tolist()
     [[15.0]]
     """
-    used, column = np.unique(rows.indices, return_inverse=True)
+    some = np.zeros(rows.shape[1], bool)
+    some[rows.indices] = True
+    used, column = np.flatnonzero(some), (np.cumsum(some) - 1)[rows.indices]
     own = _all(columns) if extent is None else extent
     return _congruence((rows.data, column, rows.indptr), columns, place[used], used, own[place[used]])
 

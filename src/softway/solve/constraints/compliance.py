@@ -38,6 +38,8 @@ class RowBasis:
         (k,) numbers of the rows that change.
     transposed
         (b, f) transposed directions.
+    direction
+        (f,) direction of each unknown that is one, -1 for the others.
     """
 
     directions: sp.csc_array
@@ -45,9 +47,14 @@ class RowBasis:
     place: IntArray | None = None
     changing: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     transposed: sp.csr_array = field(init=False)
+    direction: IntArray = field(init=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "transposed", sp.csr_array(self.directions.T))
+        direction = np.full(self.directions.shape[0], -1)
+        if self.component is not None:
+            direction[self.component] = self.known + np.arange(len(self.component))
+        object.__setattr__(self, "direction", direction)
 
     @property
     def known(self) -> int:
@@ -60,17 +67,33 @@ class RowBasis:
 
     def coefficients(self, rows: ContactRows, dofs: DofMap) -> sp.csr_array:
         """Coefficients C (m, b) of the rows, ``G = C directions^T``."""
-        if self.place is None:
-            return sp.csr_array(rows.matrix(dofs)[:, self.component])
-        own = np.flatnonzero(self.place >= 0)
-        unit = sp.csr_array((np.ones(len(own)), (own, self.place[own])), shape=(len(rows.node), self.known))
+        own = np.zeros(0, np.int64) if self.place is None else np.flatnonzero(self.place >= 0)
         if self.component is None:
-            return unit
-        others = np.zeros(len(rows.node))
-        others[self.changing] = 1.0
-        rest = sp.csr_array(sp.diags_array(others) @ rows.matrix(dofs)[:, self.component])
-        rest.eliminate_zeros()
-        return sp.csr_array(sp.hstack([unit, rest], format="csr"))
+            assert self.place is not None
+            units = (np.ones(len(own)), (own, self.place[own]))
+            return sp.csr_array(units, shape=(len(rows.node), self.known))
+        matrix = rows.matrix(dofs)
+        column = self.direction[matrix.indices]
+        kept = column >= 0
+        if self.place is not None:
+            others = np.zeros(len(rows.node), bool)
+            others[self.changing] = True
+            kept &= np.repeat(others, np.diff(matrix.indptr)) & (matrix.data != 0.0)
+        return self._with_units(own, matrix, column, kept)
+
+    def _with_units(self, own: IntArray, matrix: sp.csr_array, column: IntArray, kept: BoolArray) -> sp.csr_array:
+        """Entries ``kept`` (z,) of rows (m, f), in the ``column`` (z,), with a unit in the rows ``own`` (k,) without."""
+        before = np.concatenate([[0], np.cumsum(kept)])[matrix.indptr]
+        unit = np.zeros(matrix.shape[0], np.int64)
+        unit[own] = 1
+        first = before + np.concatenate([[0], np.cumsum(unit)])
+        value, place = np.ones(first[-1]), np.empty(first[-1], np.int64)
+        rest = np.ones(first[-1], bool)
+        rest[first[own]] = False
+        value[rest], place[rest] = matrix.data[kept], column[kept]
+        if self.place is not None:
+            place[first[own]] = self.place[own]
+        return sp.csr_array((value, place, first), shape=(matrix.shape[0], self.directions.shape[1]))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -195,7 +218,7 @@ class FrozenOperator:
         """Compliance ``C B^T A^-1 B C^T`` (k, k) of rows C (k, b) along the directions."""
         if not rows.nnz:
             return np.zeros((rows.shape[0], rows.shape[0]))
-        self.fill(np.unique(rows.indices))
+        self.fill(CombinedRows(rows).used)
         return self._times(congruence_of_columns(rows, self.table.stored, self.table.place, self.table.extent))
 
     def solve_push(self, push: Array) -> Array:

@@ -54,7 +54,9 @@ class CombinedRows:
     @property
     def used(self) -> IntArray:
         """Directions (k,) that the rows use."""
-        return np.unique(self.matrix.indices)
+        some = np.zeros(self.matrix.shape[1], bool)
+        some[self.matrix.indices] = True
+        return np.flatnonzero(some)
 
     def from_basis(self, values: Array) -> Array:
         """Values (m,) of the rows from those of the directions (b,)."""
@@ -62,7 +64,9 @@ class CombinedRows:
 
     def spread(self, amounts: Array) -> Array:
         """Forces (b,) along the directions from those of the rows (m,)."""
-        return np.asarray(self.matrix.T @ amounts)
+        rows = self.matrix
+        weights = rows.data * np.repeat(amounts, np.diff(rows.indptr))
+        return np.asarray(np.bincount(rows.indices, weights, minlength=rows.shape[1]), float)
 
     def subset(self, which: IntArray) -> "CombinedRows":
         """Subset of the rows."""
