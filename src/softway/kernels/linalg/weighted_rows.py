@@ -22,7 +22,9 @@ def add_rows(stored, which, amounts, extent, out):
     i, count = 0, len(which)
     while i < count:
         first, end, alike = extent[i, 0], min(extent[i, 1], len(out)), 1
-        while alike < 4 and i + alike < count and extent[i + alike, 0] == first and extent[i + alike, 1] == extent[i, 1]:
+        while (
+            alike < 4 and i + alike < count and extent[i + alike, 0] == first and extent[i + alike, 1] == extent[i, 1]
+        ):
             alike += 1
         if alike == 4:
             a, b, c, d = which[i], which[i + 1], which[i + 2], which[i + 3]

@@ -40,7 +40,9 @@ def gap_rows(
     (u, d), m, (p, k) = x.shape, len(normal), slave.corner.shape
     count = len(pairs.master)
     each = k if len(heights[1]) else 1
-    distances = Distances(facing=np.empty((count, each, d)), height=np.zeros((count, k)), leaning=np.zeros((p, k, k, d)))
+    distances = Distances(
+        facing=np.empty((count, each, d)), height=np.zeros((count, k)), leaning=np.zeros((p, k, k, d))
+    )
     distance_slopes(slave, master, pairs, *vertices, heights, slope_room(k, d), distances)
     room = Room(
         sums=np.zeros((u, 2 + d)),

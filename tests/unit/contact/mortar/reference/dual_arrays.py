@@ -61,9 +61,7 @@ def dual_basis(mass: Array, coverage: Array, warp: Array | None = None) -> DualB
 
 
 def warping(corners: Array) -> Array:
-    """Nodal values (f, 4) of the functions on four-node facets (f, 4, 3) that are orthogonal to every linear one.
-
-    """
+    """Nodal values (f, 4) of the functions on four-node facets (f, 4, 3) that are orthogonal to every linear one."""
     normal = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
     after, before = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
     area = np.einsum("fki,fi->fk", np.cross(after, before), normal)  # twice the triangle at each corner
