@@ -48,7 +48,7 @@ def distance_slopes(slave, master, pairs, below, above, heights, room, out):
     The slopes under a motion of the corners of the slave also turn the direction in which the distance is measured.
     Without the turn a row of two surfaces that are not parallel would have a moment.
     """
-    d, p, k = below.shape[1], slave.corner.shape[0], slave.corner.shape[1]
+    p, k = slave.corner.shape
     for i in range(p):
         if pairs.first[i] < pairs.first[i + 1]:
             _gradients(below, slave.corner, i, room.square, room.gradient)

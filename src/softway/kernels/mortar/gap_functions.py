@@ -56,7 +56,7 @@ def _add(whole, piece, a, c, amount, split):
 
 @uncounted
 def _shape(node, piece, corner):
-    """Shape function of a four-node facet at a corner of one of its simplices: nodes ``piece``, the next, the middle."""
+    """Shape function of a four-node facet at a corner of a simplex: the node ``piece``, the next one, the middle."""
     if corner == 2:
         return QUARTER
     return 1.0 if node == (piece + corner) % 4 else 0.0

@@ -57,9 +57,9 @@ class Pairs(NamedTuple):
 
 class Distances(NamedTuple):
     """Distance of the surfaces of the pairs: slopes ``facing`` (s, k, d) under a shift of the slave, for each of its
-    coordinates, or (s, 1, d) for all where surfaces are flat; integrals ``height`` (s, k) of coordinates and the heights of both surfaces along the distance
-    [m^(r+1)], and integrals ``leaning`` (p, k, k, d) of coordinates on the slave and the slopes under a motion of its
-    corners [m^r].
+    coordinates, or (s, 1, d) for all where surfaces are flat; integrals ``height`` (s, k) of coordinates and the
+    heights of both surfaces along the distance [m^(r+1)], and integrals ``leaning`` (p, k, k, d) of coordinates on the
+    slave and the slopes under a motion of its corners [m^r].
     """
 
     facing: Array

@@ -13,7 +13,7 @@ from softway.kernels.linalg.congruence import congruence_of_columns
 from softway.kernels.linalg.dense import DenseFactor
 from softway.solve.constraints.column_cache import ColumnCache
 from softway.solve.constraints.recent_factor import RecentFactor
-from softway.solve.constraints.row_basis import CombinedRows, RowCoefficients, UnitRows
+from softway.solve.constraints.row_basis import CombinedRows, RowCoefficients, UnitRows, joined_entries
 from softway.solve.linear.condensed_compliance import condensed_compliance
 from softway.solve.linear.interface import Factor, LinearSolver
 
@@ -79,21 +79,8 @@ class RowBasis:
             others = np.zeros(len(rows.node), bool)
             others[self.changing] = True
             kept &= np.repeat(others, np.diff(matrix.indptr)) & (matrix.data != 0.0)
-        return self._with_units(own, matrix, column, kept)
-
-    def _with_units(self, own: IntArray, matrix: sp.csr_array, column: IntArray, kept: BoolArray) -> sp.csr_array:
-        """Entries ``kept`` (z,) of rows (m, f), in the ``column`` (z,), with a unit in the rows ``own`` (k,) without."""
-        before = np.concatenate([[0], np.cumsum(kept)])[matrix.indptr]
-        unit = np.zeros(matrix.shape[0], np.int64)
-        unit[own] = 1
-        first = before + np.concatenate([[0], np.cumsum(unit)])
-        value, place = np.ones(first[-1]), np.empty(first[-1], np.int64)
-        rest = np.ones(first[-1], bool)
-        rest[first[own]] = False
-        value[rest], place[rest] = matrix.data[kept], column[kept]
-        if self.place is not None:
-            place[first[own]] = self.place[own]
-        return sp.csr_array((value, place, first), shape=(matrix.shape[0], self.directions.shape[1]))
+        units = (own, np.zeros(0, np.int64) if self.place is None else self.place[own])
+        return joined_entries(matrix, column, kept, units, self.directions.shape[1])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
