@@ -1,9 +1,9 @@
 """Broad phase: pairs of moving boxes that may come within reach of one another in a slab.
 
 Boxes are grouped by similar size (octaves), each group with a grid of centres: a graded mesh costs no more than a
-uniform one.  Paths that are long compared with the boxes are cut into pieces, whose centres are in a tree.  Motion is relative to the mean motion of
-the second set: two bodies that fly together have no pairs.  Boxes that do not come near the box around the whole other
-set are left out before.  The cost is O(n log n) unless many boxes overlap.
+uniform one.  Paths that are long compared with the boxes are cut into pieces, whose centres are in a tree.  Motion is
+relative to the mean motion of the second set: two bodies that fly together have no pairs.  Boxes that do not come near
+the box around the whole other set are left out before.  The cost is O(n log n) unless many boxes overlap.
 """
 
 from dataclasses import dataclass

@@ -79,7 +79,7 @@ RowCoefficients = UnitRows | CombinedRows
 def joined_entries(
     matrix: sp.csr_array, column: IntArray, kept: BoolArray, units: tuple[IntArray, IntArray], width: int
 ) -> sp.csr_array:
-    """Rows (m, width) of the entries ``kept`` (z,) of a matrix (m, f), in the ``column`` (z,), and of one unit in each of
+    """Rows (m, width) of the entries ``kept`` (z,) of a matrix (m, f), in the ``column`` (z,), and of a unit in each of
     the rows ``units[0]`` (k,), of which nothing is kept, in the column ``units[1]``.
 
     Examples
