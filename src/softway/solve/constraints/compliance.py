@@ -79,8 +79,8 @@ class RowBasis:
             others = np.zeros(len(rows.node), bool)
             others[self.changing] = True
             kept &= np.repeat(others, np.diff(matrix.indptr)) & (matrix.data != 0.0)
-        units = (own, np.zeros(0, np.int64) if self.place is None else self.place[own])
-        return joined_entries(matrix, column, kept, units, self.directions.shape[1])
+        unit = np.zeros(0, np.int64) if self.place is None else self.place[own]
+        return joined_entries(matrix, column, kept, (own, unit), self.directions.shape[1])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
