@@ -10,12 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from softway.arrays import Array
-
-DUAL, MEAN = 0.999, 0.5
-"""Covered fractions above which the basis is dual, and below which it is the shape functions; mixed in between: a dual
-function on a partly covered facet extrapolates, and would detect overlap where curved surfaces separate."""
-STIFF = 1e-6
-"""Penalty of warping, relative to the mass: a partly covered four-node facet does not determine it."""
+from softway.kernels.mortar.dual_basis import dual_bases, warped
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -54,17 +49,10 @@ def dual_basis(mass: Array, coverage: Array, warp: Array | None = None) -> DualB
     >>> made.coefficients.round(12).tolist(), made.own.tolist()
     ([[[2.0, -1.0], [-1.0, 2.0]]], [[[0.5, 0.0], [0.0, 0.5]]])
     """
-    b = mass.shape[-1]
-    sums = mass.sum(axis=2)
-    mean = np.clip((DUAL - coverage) / (DUAL - MEAN), 0.0, 1.0)[:, None, None]
-    diagonal = sums[:, :, None] * np.eye(b)
-    regular = mass
-    if warp is not None:
-        penalty = STIFF * sums.sum(axis=1) * np.maximum(1.0 - coverage, 0.0)
-        regular = mass + penalty[:, None, None] * warp[:, :, None] * warp[:, None, :]
-    regular = np.where(mean < 1.0, regular, np.eye(b))
-    coefficients = (1.0 - mean) * (sums[:, :, None] * np.linalg.inv(regular)) + mean * np.eye(b)
-    return DualBasis(coefficients=coefficients, own=(1.0 - mean) * diagonal + mean * mass)
+    made = DualBasis(coefficients=np.empty(mass.shape), own=np.empty(mass.shape))
+    bent = np.zeros(mass.shape[:2]) if warp is None else warp
+    dual_bases(mass, coverage, bent, made.coefficients, made.own)
+    return made
 
 
 def warping(corners: Array) -> Array:
@@ -76,8 +64,6 @@ def warping(corners: Array) -> Array:
     >>> warping(square).tolist()
     [[0.5, -0.5, 0.5, -0.5]]
     """
-    normal = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
-    after, before = np.roll(corners, -1, axis=1) - corners, np.roll(corners, 1, axis=1) - corners
-    area = np.einsum("fki,fi->fk", np.cross(after, before), normal)  # twice the triangle at each corner
-    opposite = np.roll(area, 2, axis=1) * np.array([1.0, -1.0, 1.0, -1.0])
-    return np.asarray(opposite / np.sum(normal**2, axis=1)[:, None])
+    out = np.empty(corners.shape[:2])
+    warped(corners.reshape(-1, 3), np.arange(4 * len(corners)).reshape(-1, 4), out)
+    return out

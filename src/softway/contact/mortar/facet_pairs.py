@@ -7,7 +7,8 @@ import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
 from softway.contact.surfaces.broad_phase import Sweep, near, sweep
-from softway.contact.surfaces.wall_thickness import admissible_depth
+from softway.contact.surfaces.wall_thickness import DEPTH
+from softway.kernels.mortar.facing import Limits, Side, facing
 
 ANGLE = -0.5
 """Greatest product of unit normals that face each other: 60 degrees."""
@@ -110,19 +111,25 @@ def facet_pairs(
     i, j = near(first, second, reach, None if margin is None else margin.taken(first, second))
     if not len(i):
         return FacetPairs(slave=i, master=j, limit=np.zeros(0))
-    own, other = (unit(vector_areas(corners[0])) for corners in (slave, master))
-    opposite = np.einsum("ds,ds->s", np.take(own, i, axis=1), np.take(other, j, axis=1)) <= ANGLE
-    i, j = i[opposite], j[opposite]
-    size = np.maximum(_sizes(slave[0])[i], _sizes(master[0])[j])
-    start, end = (_heights(below, above, i, j) for below, above in zip(slave, master, strict=True))
-    walls = [np.broadcast_to(t, c[0].shape[2])[k] for t, c, k in zip(thickness, (slave, master), (i, j), strict=True)]
-    depth = admissible_depth(DEEP * size, walls[0] + walls[1])
-    between = _height_between(slave[0], master[0], unit(np.take(own, i, axis=1) - np.take(other, j, axis=1)), i, j)
-    overlap = -np.where(depth < DEEP * size, start[1], np.maximum(start[1], between))
-    kept = (overlap <= depth) & (np.minimum(start[0], end[0]) <= reach)
-    i, j, size = i[kept], j[kept], size[kept]
-    motion = _centre_motion(slave)[:, i] - _centre_motion(master)[:, j]
-    return FacetPairs(slave=i, master=j, limit=FEW * size + reach + np.sqrt(np.sum(motion**2, axis=0)))
+    sides = [_side(corners, t) for corners, t in zip((slave, master), thickness, strict=True)]
+    limits = Limits(angle=ANGLE, deep=DEEP, part=DEPTH, reach=float(reach), few=FEW)
+    kept, limit = np.empty(len(i), np.int64), np.empty(len(i))
+    count = facing(sides[0], sides[1], i, j, limits, kept, limit)
+    return FacetPairs(slave=i[kept[:count]], master=j[kept[:count]], limit=limit[:count])
+
+
+def _side(corners: tuple[Array, Array], thickness: Array | float) -> Side:
+    """Simplices of one surface, with corners (d, k, p) at both ends, for the loop."""
+    start, end = (np.ascontiguousarray(c) for c in corners)
+    return Side(
+        start=start,
+        end=end,
+        normal=unit(vector_areas(start)),
+        last=unit(vector_areas(end)),
+        size=_sizes(start),
+        motion=_centre_motion(corners),
+        wall=np.full(start.shape[2], thickness, float),
+    )
 
 
 def _sweep(corners: tuple[Array, Array]) -> Sweep:
@@ -130,20 +137,6 @@ def _sweep(corners: tuple[Array, Array]) -> Sweep:
     d, k, p = corners[0].shape
     start, end = (points.reshape(d, -1).T for points in corners)
     return sweep(start, end, np.arange(k * p).reshape(k, p).T)
-
-
-def _heights(slave: Array, master: Array, i: IntArray, j: IntArray) -> tuple[Array, Array]:
-    """Least and greatest height (s,) of the master corners above the slave corners, along the slave normals."""
-    normal = unit(vector_areas(slave))
-    base = np.sum(normal[:, None] * slave, axis=0)
-    over = np.einsum("ds,dks->ks", np.take(normal, i, axis=1), np.take(master, j, axis=2))
-    return over.min(axis=0) - base.max(axis=0)[i], over.max(axis=0) - base.min(axis=0)[i]
-
-
-def _height_between(slave: Array, master: Array, direction: Array, i: IntArray, j: IntArray) -> Array:
-    """Height (s,) of the highest corner of the masters above the lowest one of the slaves, along directions (d, s)."""
-    low = np.einsum("ds,dks->ks", direction, np.take(slave, i, axis=2)).min(axis=0)
-    return np.asarray(np.einsum("ds,dks->ks", direction, np.take(master, j, axis=2)).max(axis=0) - low)
 
 
 def _sizes(corners: Array) -> Array:

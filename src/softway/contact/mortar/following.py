@@ -147,7 +147,7 @@ def common_parts(slave: Mapping[str, IntArray], master: Mapping[str, IntArray], 
         weights=met.vertex_weights,
         common=common,
         functions=gap_weights(
-            mortar.slave, below, np.where(part > SLIVER * size, part, size), mass
+            tables.facets, below, np.where(part > SLIVER * size, part, size), mass
         ),  # dual where covered
         part=part,
         sizes=(size, other),

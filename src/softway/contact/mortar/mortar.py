@@ -78,12 +78,9 @@ class Mortar:
         thickness = self.slave.thickness(self.thickness), self.master.thickness(self.thickness)
         close = None if margin is None else Margin(distance=margin, support=self.support)
         pairs = facet_pairs((slave[0], slave[1]), (master[0], master[1]), reach, thickness, close)
-        return MortarContact(
-            slave=self.slave,
-            tables=self.tables,
-            pairs=pairs,
-            vertex_weights=self._vertex_weights(np.unique(pairs.slave)),
-        )
+        some = pairs.slave[np.diff(pairs.slave, prepend=-1) > 0]
+        weights = self.support if len(some) == len(self.slave.corner) else self._vertex_weights(some)
+        return MortarContact(slave=self.slave, tables=self.tables, pairs=pairs, vertex_weights=weights)
 
     @property
     def greatest_height(self) -> float:
@@ -148,7 +145,7 @@ class MortarContact:
         normal = -unit(self.vertex_weights @ areas, axis=1)
         common = self.overlap(below, above, areas, normal)
         size = np.sqrt(np.sum(areas**2, axis=1))
-        functions = gap_weights(self.slave, below, size, common.mass(len(size)))
+        functions = gap_weights(tables.facets, below, size, common.mass(len(size)))
         gap, made = gap_rows(
             (tables.slave, tables.master, tables.facets),
             functions,

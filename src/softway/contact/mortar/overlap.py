@@ -7,6 +7,7 @@ import numpy as np
 from softway.arrays import Array, IntArray
 from softway.contact.mortar.facet_pairs import FacetPairs
 from softway.contact.mortar.surface_tables import SurfaceTables
+from softway.kernels.mortar.gap_functions import sum_masses
 from softway.kernels.mortar.segments import segment_overlap
 from softway.kernels.mortar.simplices import keep_near
 from softway.kernels.mortar.tables import Pairs
@@ -49,9 +50,7 @@ class Overlap:
     def mass(self, count: int) -> Array:
         """Sums (count, k, k) of ``own`` over the pairs of each slave simplex."""
         out = np.zeros((count, *self.own.shape[1:]))
-        first = np.flatnonzero(np.diff(self.slave, prepend=-1))
-        if len(first):
-            out[self.slave[first]] = np.add.reduceat(self.own, first, axis=0)
+        sum_masses(self.slave, self.own, out)
         return out
 
     def pairs(self, count: int) -> Pairs:

@@ -36,8 +36,7 @@ def joined_rows(
     found = [m.at(x) for m in surfaces]
     d = x.shape[1]
     normal = np.concatenate([np.zeros((0, d)), *(s.normal for s in found)])
-    weights = sp.csr_array(sp.vstack([sp.csr_array((0, len(x))), *(s.weights for s in found)], format="csr"))
-    gradient = _gradient(found, weights, normal)
+    gradient = _gradient(found, normal, len(x))
     gap = np.concatenate([np.zeros(0), *(s.gap for s in found)])
     tool_motion = [
         m.normal_motion(x, s.normal) if isinstance(m, ToolContact) else np.zeros(len(s.gap))
@@ -51,25 +50,27 @@ def joined_rows(
         offset=gap - gradient @ u.ravel(),
         tool_motion=np.concatenate([np.zeros(0), *tool_motion]),
         labels=labels,
-        shear=_shear(surfaces, found, x, (weights, normal)) if frictionless is None else frictionless,
+        shear=_shear(surfaces, found, x, normal) if frictionless is None else frictionless,
     )
 
 
-def _gradient(found: list[Stencils], weights: sp.csr_array, normal: Array) -> sp.csr_array:
+def _weights(found: list[Stencils], nodes: int) -> sp.csr_array:
+    """Weights (m, n) of all rows."""
+    return sp.csr_array(sp.vstack([sp.csr_array((0, nodes)), *(s.weights for s in found)], format="csr"))
+
+
+def _gradient(found: list[Stencils], normal: Array, nodes: int) -> sp.csr_array:
     """Derivatives (m, n d) of the gaps: from all weights (m, n) and normals (m, d) at once where these give them."""
     if all(s.slopes is None for s in found):
-        return normal_component(weights, normal)
+        return normal_component(_weights(found, nodes), normal)
     return sp.csr_array(sp.vstack([s.gradient() for s in found], format="csr"))
 
 
-def _shear(
-    surfaces: Sequence[PairedSurfaces], found: list[Stencils], x: Array, rows: tuple[sp.csr_array, Array]
-) -> TangentialRows:
-    """Tangential parts of the ``rows``, weights (m, n) and normals (m, d), at positions ``x`` (n, d)."""
+def _shear(surfaces: Sequence[PairedSurfaces], found: list[Stencils], x: Array, normal: Array) -> TangentialRows:
+    """Tangential parts of the rows with normals (m, d), at positions ``x`` (n, d)."""
     moved = [
         m.moved(x) if isinstance(m, ToolContact) else np.zeros_like(s.normal)
         for m, s in zip(surfaces, found, strict=True)
     ]
-    return TangentialRows(
-        weights=rows[0], tangents=tangents(rows[1]), moved=np.concatenate([np.zeros((0, x.shape[1])), *moved])
-    )
+    motion = np.concatenate([np.zeros((0, x.shape[1])), *moved])
+    return TangentialRows(weights=_weights(found, len(x)), tangents=tangents(normal), moved=motion)

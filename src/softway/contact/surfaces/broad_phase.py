@@ -1,9 +1,9 @@
 """Broad phase: pairs of moving boxes that may come within reach of one another in a slab.
 
-Boxes are grouped by similar size (octaves), each group with a tree of centres: a graded mesh costs no more than a
-uniform one.  A path that is long compared with the boxes is cut into pieces.  Motion is relative to the mean motion of
-the second set: two bodies that fly together have no pairs.  Boxes that do not come near the box around the whole other
-set are left out before.  The cost is O(n log n) unless many boxes overlap.
+Boxes are grouped by similar size (octaves), each group with a grid of centres: a graded mesh costs no more than a
+uniform one.  Paths that are long compared with the boxes are cut into pieces, whose centres are in a tree.  Motion is
+relative to the mean motion of the second set: two bodies that fly together have no pairs.  Boxes that do not come near
+the box around the whole other set are left out before.  The cost is O(n log n) unless many boxes overlap.
 """
 
 from dataclasses import dataclass
@@ -13,6 +13,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from softway.arrays import Array, IntArray
+from softway.kernels.geometry.box_pairs import box_pairs
 
 PIECES = 256
 """Greatest number of pieces of a path."""
@@ -85,12 +86,22 @@ def near(one: Sweep, two: Sweep, reach: float, which: IntArray | None = None) ->
     second = _beside(centre, half, middle[first], wide[first]) if len(first) else first
     if not len(second):
         return second, second
-    i, j = _met(start[first], end[first], one.half[first], centre[second], half[second], reach)
-    i, j = first[i], second[j]
-    for axis in range(middle.shape[1]):
-        keep = np.abs(middle[i, axis] - centre[j, axis]) <= wide[i, axis] + half[j, axis]
-        i, j = i[keep], j[keep]
-    return i, j
+    paths = _Paths(start=start[first], end=end[first], thick=one.half[first], middle=middle[first], wide=wide[first])
+    i, j = _met(paths, centre[second], half[second], reach)
+    return first[i], second[j]
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _Paths:
+    """Boxes (k, d) on their way: centres at the ends, half widths, and the middles and half widths of boxes around the
+    paths, which include the reach.
+    """
+
+    start: Array
+    end: Array
+    thick: Array
+    middle: Array
+    wide: Array
 
 
 def _beside(middle: Array, wide: Array, other: Array, half: Array) -> IntArray:
@@ -100,15 +111,16 @@ def _beside(middle: Array, wide: Array, other: Array, half: Array) -> IntArray:
     return np.flatnonzero(((middle + wide >= low - slack) & (middle - wide <= high + slack)).all(axis=1))
 
 
-def _met(start: Array, end: Array, thick: Array, centre: Array, half: Array, reach: float) -> tuple[IntArray, IntArray]:
+def _met(paths: _Paths, centre: Array, half: Array, reach: float) -> tuple[IntArray, IntArray]:
     """Pairs of paths and boxes that may come within reach, sorted, each once."""
     keys = [
-        _pairs(a, b, start, end, thick, centre, half, reach)
+        _pairs(a, b, paths, centre, half, reach)
         for b in _octaves(half.max(axis=1))
-        for a in _octaves(thick.max(axis=1))
+        for a in _octaves(paths.thick.max(axis=1))
     ]
-    key = np.sort(np.concatenate(keys))
-    return np.divmod(key[np.diff(key, prepend=-1) > 0], len(half))
+    key = keys[0] if len(keys) == 1 else np.sort(np.concatenate(keys))
+    i = key // len(half)
+    return i, key - i * len(half)
 
 
 def _octaves(size: Array) -> list[IntArray]:
@@ -117,18 +129,26 @@ def _octaves(size: Array) -> list[IntArray]:
     return [np.flatnonzero(level == k) for k in np.unique(level)]
 
 
-def _pairs(
-    a: IntArray, b: IntArray, start: Array, end: Array, thick: Array, centre: Array, half: Array, reach: float
-) -> IntArray:
-    """Keys ``first * number + second`` of the pairs of one group ``a`` of paths with one group ``b`` of boxes."""
-    motion = end[a] - start[a]
-    size = max(float(half[b].max() + thick[a].max()) + reach, np.finfo(float).tiny)
+def _pairs(a: IntArray, b: IntArray, paths: _Paths, centre: Array, half: Array, reach: float) -> IntArray:
+    """Keys ``first * number + second`` of the pairs of one group ``a`` of paths with one group ``b`` of boxes, sorted.
+
+    Boxes around paths that are short compared with the boxes are compared on a grid.
+    """
+    motion = paths.end[a] - paths.start[a]
+    size = max(float(half[b].max() + paths.thick[a].max()) + reach, np.finfo(float).tiny)
     pieces = np.clip(np.ceil(0.5 * np.abs(motion).max(axis=1) / size), 1, PIECES).astype(np.int64)
+    if pieces.max() == 1:
+        i, j = box_pairs(paths.middle[a], paths.wide[a], centre[b], half[b])
+        return np.asarray(a[i] * len(half) + b[j])
     path = np.repeat(np.arange(len(a)), pieces)
     number = np.arange(len(path)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
-    middles = start[a][path] + ((number + 0.5) / pieces[path])[:, None] * motion[path]
+    middles = paths.start[a][path] + ((number + 0.5) / pieces[path])[:, None] * motion[path]
     radius = size + float((0.5 * np.abs(motion).max(axis=1) / pieces).max())
     tree, other = cKDTree(middles), cKDTree(centre[b])
     # distances have a small tolerance, so that boxes that only touch are found
     met = tree.sparse_distance_matrix(other, radius * (1.0 + 1e-12), p=np.inf, output_type="ndarray")
-    return np.asarray(a[path[met["i"]]] * len(half) + b[met["j"]])
+    i, j = a[path[met["i"]]], b[met["j"]]
+    for axis in range(half.shape[1]):
+        keep = np.abs(paths.middle[i, axis] - centre[j, axis]) <= paths.wide[i, axis] + half[j, axis]
+        i, j = i[keep], j[keep]
+    return np.unique(i * len(half) + j)

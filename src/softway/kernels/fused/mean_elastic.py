@@ -51,7 +51,7 @@ def force(m, measure, law, moduli, rows, table, geometry, starts, first, last, u
             X, at = geometry[block, q], kept + q * _KEPT
             _, r = scaled(s, at, X, None, theta, m)
             respond(s, X, measure, law, moduli, u.shape[1])
-            store(s, TOTAL, fma(load(X, TENSOR + LANES), load(s, ENERGY), load(s, TOTAL)))
+            _count(s, X)
             stress(s, X)
             quotient = quotient + _split(s, at, load(X, TENSOR), r, m)
         pressure = quotient / (size * theta)
@@ -60,9 +60,7 @@ def force(m, measure, law, moduli, rows, table, geometry, starts, first, last, u
             for row in range(0, TENSOR, LANES):
                 store(s, NATURAL + row, load(s, at + row) + pressure * load(s, at + TENSOR + row))
             collect(s, table[q], sums)
-        scatter(s, sums, rows[block], out)
-        for lane in range(LANES):
-            energy[block, lane] += s[TOTAL + lane]
+        _add(s, sums, rows[block], out, energy[block])
 
 
 @kernel
@@ -84,9 +82,8 @@ def small_force(m, measure, law, moduli, rows, table, geometry, starts, first, l
             X = geometry[block, q]
             own = _spatial(s, X, table[q], u.shape[1], m)
             _spherical(s, FRAME, grown / size - own, m)
-            call(measure, s, moduli)
-            call(law, s, moduli)
-            store(s, TOTAL, fma(load(X, TENSOR + LANES), load(s, ENERGY), load(s, TOTAL)))
+            _evaluate(s, measure, law, moduli)
+            _count(s, X)
             flux(s)
             own = _trace(s, FLUX, m)
             pressure = pressure + load(X, TENSOR + LANES) * own
@@ -99,9 +96,7 @@ def small_force(m, measure, law, moduli, rows, table, geometry, starts, first, l
             _spherical(s, FLUX, pressure / size, m)
             pull(s, geometry[block, q][_INVERSE:])
             collect(s, table[q], sums)
-        scatter(s, sums, rows[block], out)
-        for lane in range(LANES):
-            energy[block, lane] += s[TOTAL + lane]
+        _add(s, sums, rows[block], out, energy[block])
 
 
 @inlined
@@ -110,8 +105,28 @@ def respond(s, X, measure, law, moduli, d):
     for row in range(0, TENSOR, LANES):
         store(s, NATURAL + row, load(s, FRAME + row) - load(X, row))
     place(s, X[_INVERSE:], FRAME, d)
+    _evaluate(s, measure, law, moduli)
+
+
+@inlined
+def _evaluate(s, measure, law, moduli):
+    """Evaluate the stages of a point with the derivatives in FRAME."""
     call(measure, s, moduli)
     call(law, s, moduli)
+
+
+@inlined
+def _count(s, X):
+    """Add the energy of a point to that of its cell."""
+    store(s, TOTAL, fma(load(X, TENSOR + LANES), load(s, ENERGY), load(s, TOTAL)))
+
+
+@inlined
+def _add(s, sums, rows, out, energy):
+    """Add the nodal forces of a block to ``out``, and its energies (LANES,)."""
+    scatter(s, sums, rows, out)
+    for lane in range(LANES):
+        energy[lane] += s[TOTAL + lane]
 
 
 @inlined

@@ -35,6 +35,7 @@ _SHARED = (
     "fused/mean_dilatation.py",
     "fused/mean_elastic.py",
     "fused/stages.py",
+    "mortar/dual_basis.py",
     "mortar/simplices.py",
     "mortar/tables.py",
     "multibody/angles.py",

@@ -18,8 +18,9 @@ STEEP = 0.2
 
 class SlopeRoom(NamedTuple):
     """Place for one pair: the unit normal ``square`` (1, d) and the gradients ``gradient`` (k, d) of the slave, the
-    normal ``normal`` (1, d) and the gradients ``along`` (k, d) of the master, coordinates ``at`` (k,), and heights
-    ``rise`` (k,) at the corners of the slave.
+    normal ``normal`` (1, d) and the gradients ``along`` (k, d) of the master, coordinates ``at`` (k,), heights
+    ``rise`` (k,) at the corners of the slave, and components along a slope: ``lean`` (k,) of the gradients, ``low`` and
+    ``high`` (k,) of the corners of slave and master.
     """
 
     square: Array
@@ -28,11 +29,14 @@ class SlopeRoom(NamedTuple):
     along: Array
     at: Array
     rise: Array
+    lean: Array
+    low: Array
+    high: Array
 
 
 def slope_room(k: int, d: int) -> SlopeRoom:
     """Place for simplices of k corners in d dimensions."""
-    return SlopeRoom(*(np.zeros(shape) for shape in ((1, d), (k, d), (1, d), (k, d), (k,), (k,))))
+    return SlopeRoom(*(np.zeros(shape) for shape in ((1, d), (k, d), (1, d), (k, d), *((k,),) * 5)))
 
 
 @uncounted_kernel
@@ -44,7 +48,7 @@ def distance_slopes(slave, master, pairs, below, above, heights, room, out):
     The slopes under a motion of the corners of the slave also turn the direction in which the distance is measured.
     Without the turn a row of two surfaces that are not parallel would have a moment.
     """
-    d, p, k = below.shape[1], slave.corner.shape[0], slave.corner.shape[1]
+    p, k = slave.corner.shape
     for i in range(p):
         if pairs.first[i] < pairs.first[i + 1]:
             _gradients(below, slave.corner, i, room.square, room.gradient)
@@ -55,20 +59,38 @@ def distance_slopes(slave, master, pairs, below, above, heights, room, out):
                 add_heights(slave, master, heights, pairs, below, above, i, s, cosine, room, out.height)
                 for a in range(k):
                     tilt(heights[1], pairs.master[s], pairs.cross[s, a], cosine, room, out.facing[s, a])
-            for a in range(k):
-                distance = 0.0
-                for b in range(k):
-                    own, cross = slave.corner[i, b], master.corner[pairs.master[s], b]
-                    for c in range(d):
-                        both = pairs.own[s, a, b] * below[own, c] - pairs.cross[s, a, b] * above[cross, c]
-                        distance += out.facing[s, a, c] * both
-                for b in range(k):
-                    lean = 0.0
-                    for c in range(d):
-                        lean += room.gradient[b, c] * out.facing[s, a, c]
-                    for c in range(d):
-                        shift = pairs.own[s, a, b] * out.facing[s, a, c]
-                        out.leaning[i, a, b, c] += shift - distance * lean * room.square[0, c]
+            if len(heights[1]):
+                for a in range(k):
+                    _project(slave, master, pairs, below, above, i, s, out.facing[s, a], room)
+                    _lean(i, s, a, pairs, out.facing[s, a], room, out.leaning)
+            else:
+                _project(slave, master, pairs, below, above, i, s, out.facing[s, 0], room)
+                for a in range(k):
+                    _lean(i, s, a, pairs, out.facing[s, 0], room, out.leaning)
+
+
+@uncounted
+def _project(slave, master, pairs, below, above, i, s, facing, room):
+    """Write the components along a slope (d,) of the corners of a pair and of the gradients of the slave."""
+    for b in range(len(room.lean)):
+        own, cross = slave.corner[i, b], master.corner[pairs.master[s], b]
+        room.lean[b], room.low[b], room.high[b] = 0.0, 0.0, 0.0
+        for c in range(len(facing)):
+            room.lean[b] += room.gradient[b, c] * facing[c]
+            room.low[b] += below[own, c] * facing[c]
+            room.high[b] += above[cross, c] * facing[c]
+
+
+@uncounted
+def _lean(i, s, a, pairs, facing, room, leaning):
+    """Add the integrals of a coordinate a and the slopes of a pair under a motion of the corners of the slave i."""
+    k, distance = len(room.lean), 0.0
+    for b in range(k):
+        distance += pairs.own[s, a, b] * room.low[b] - pairs.cross[s, a, b] * room.high[b]
+    for b in range(k):
+        turned = distance * room.lean[b]
+        for c in range(len(facing)):
+            leaning[i, a, b, c] += pairs.own[s, a, b] * facing[c] - turned * room.square[0, c]
 
 
 @uncounted
@@ -98,7 +120,8 @@ def _face(vertices, corner, j, room, facing, s):
         room.normal[0, c] /= size if size > 0.0 else 1.0
         cosine -= room.square[0, c] * room.normal[0, c]
     cosine = max(cosine, STEEP)
-    for a in range(facing.shape[1]):
-        for c in range(facing.shape[2]):
-            facing[s, a, c] = room.normal[0, c] / cosine
+    for c in range(facing.shape[2]):
+        facing[s, 0, c] = room.normal[0, c] / cosine
+        for a in range(1, facing.shape[1]):
+            facing[s, a, c] = facing[s, 0, c]
     return cosine if size > 0.0 else 0.0

@@ -39,13 +39,19 @@ def gap_rows(
     slave, master, facets = surfaces
     (u, d), m, (p, k) = x.shape, len(normal), slave.corner.shape
     count = len(pairs.master)
-    distances = Distances(facing=np.empty((count, k, d)), height=np.zeros((count, k)), leaning=np.zeros((p, k, k, d)))
+    each = k if len(heights[1]) else 1
+    distances = Distances(
+        facing=np.empty((count, each, d)), height=np.zeros((count, k)), leaning=np.zeros((p, k, k, d))
+    )
     distance_slopes(slave, master, pairs, *vertices, heights, slope_room(k, d), distances)
     room = Room(
         sums=np.zeros((u, 2 + d)),
         used=np.zeros(u, bool),
         listed=np.empty(u, np.int64),
-        number=np.zeros(1, np.int64),
+        held=np.zeros((len(vertices[1]), 1 + d)),
+        seen=np.zeros(len(vertices[1]), bool),
+        opposite=np.empty(len(vertices[1]), np.int64),
+        number=np.zeros(2, np.int64),
         mean=np.empty(d),
         height=np.empty(1),
         terms=np.empty(1 + d),

@@ -20,9 +20,11 @@ def sum_rows(first, slave, master, facets, functions, pairs, distances, node, x,
         room.number[0], room.height[0] = 0, 0.0
         for c in range(x.shape[1]):
             room.mean[c] = 0.0
+        room.number[1] = 0
         for use in range(facets.start[r], facets.start[r + 1]):
             covered += _own_part(use, slave, facets, functions, room)
             total += _common_part(use, slave, master, facets, functions, pairs, distances, room)
+        _spread_opposite(master, room)
         met = room.number[0]
         free = made.first[r] + met <= len(made.weight) and made.start[r] + x.shape[1] * met <= len(made.slope)
         made.first[r + 1], made.start[r + 1] = made.first[r], made.start[r]
@@ -60,7 +62,7 @@ def _own_part(use, slave, facets, functions, room):
 def _common_part(use, slave, master, facets, functions, pairs, distances, room):
     """Add a test function times the motion of the master and the slopes; returns its integral.
 
-    The normals of the pairs and the heights are added up in ``room``.
+    The normals of the pairs, the heights, and the sums of the vertices of the master are added up in ``room``.
     """
     facet, place, share = facets.facet[use], facets.place[use], facets.share[use]
     d, k, total = distances.leaning.shape[3], slave.corner.shape[1], 0.0
@@ -77,19 +79,48 @@ def _common_part(use, slave, master, facets, functions, pairs, distances, room):
         for s in range(pairs.first[i], pairs.first[i + 1]):
             for a in range(k):
                 room.height[0] += share * functions.values[i, place, a] * distances.height[s, a]
-            for b in range(k):
-                for term in range(1 + d):
-                    room.terms[term] = 0.0
-                for a in range(k):
-                    amount = share * functions.values[i, place, a] * pairs.cross[s, a, b]
-                    room.terms[0] += amount
-                    for c in range(d):
-                        room.terms[1 + c] -= amount * distances.facing[s, a, c]
-                total += room.terms[0]
-                for c in range(d):
-                    room.mean[c] -= room.terms[1 + c]
-                _spread_terms(master, master.corner[pairs.master[s], b], room)
+            total += _opposite_part(share, functions.values[i, place], s, master, pairs, distances, room)
     return total
+
+
+@uncounted
+def _opposite_part(share, values, s, master, pairs, distances, room):
+    """Add a test function with ``values`` (k,) times the motion of the master of a pair and the slopes; returns its
+    integral.
+    """
+    k, d, total, flat = len(values), len(room.mean), 0.0, distances.facing.shape[1] == 1
+    for b in range(k):
+        vertex, sum_ = master.corner[pairs.master[s], b], 0.0
+        if not room.seen[vertex]:
+            room.seen[vertex], room.opposite[room.number[1]] = True, vertex
+            room.number[1] += 1
+        for a in range(k):
+            amount = share * values[a] * pairs.cross[s, a, b]
+            sum_ += amount
+            if not flat:
+                for c in range(d):
+                    room.held[vertex, 1 + c] -= amount * distances.facing[s, a, c]
+                    room.mean[c] += amount * distances.facing[s, a, c]
+        room.held[vertex, 0] += sum_
+        total += sum_
+        if flat:
+            for c in range(d):
+                room.held[vertex, 1 + c] -= sum_ * distances.facing[s, 0, c]
+    if flat:
+        for c in range(d):
+            room.mean[c] += total * distances.facing[s, 0, c]
+    return total
+
+
+@uncounted
+def _spread_opposite(master, room):
+    """Add the terms of the vertices of the master, the motion and the slopes, to those of their nodes; clear them."""
+    for q in range(room.number[1]):
+        vertex = room.opposite[q]
+        for term in range(len(room.terms)):
+            room.terms[term], room.held[vertex, term] = room.held[vertex, term], 0.0
+        room.seen[vertex] = False
+        _spread_terms(master, vertex, room)
 
 
 @uncounted

@@ -52,17 +52,17 @@ def keep_near(below, corner, above, other, areas, i, j, limit, count, pair, own,
     kept = 0
     for s in range(count):
         slave, master, size, height, measure = i[pair[s]], j[pair[s]], 0.0, 0.0, 0.0
-        for x in range(below.shape[1]):
-            apart = 0.0
+        for b in range(corner.shape[1]):
+            mine = others = low = high = 0.0
             for a in range(corner.shape[1]):
-                for b in range(corner.shape[1]):
-                    apart += cross[s, a, b] * above[other[master, b], x] - own[s, a, b] * below[corner[slave, b], x]
-            height += apart * areas[slave, x]
-            size += areas[slave, x] ** 2
-        for a in range(corner.shape[1]):
-            for b in range(corner.shape[1]):
-                measure += own[s, a, b]
+                mine, others = mine + own[s, a, b], others + cross[s, a, b]
                 own[kept, a, b], cross[kept, a, b] = own[s, a, b], cross[s, a, b]
+            for x in range(below.shape[1]):
+                low += below[corner[slave, b], x] * areas[slave, x]
+                high += above[other[master, b], x] * areas[slave, x]
+            height, measure = height + others * high - mine * low, measure + mine
+        for x in range(below.shape[1]):
+            size += areas[slave, x] ** 2
         pair[kept] = pair[s]
         if abs(height) <= limit[pair[s]] * measure * np.sqrt(size):
             kept += 1

@@ -57,9 +57,9 @@ class Pairs(NamedTuple):
 
 class Distances(NamedTuple):
     """Distance of the surfaces of the pairs: slopes ``facing`` (s, k, d) under a shift of the slave, for each of its
-    coordinates, integrals ``height`` (s, k) of coordinates and the heights of both surfaces along the distance
-    [m^(r+1)], and integrals ``leaning`` (p, k, k, d) of coordinates on the slave and the slopes under a motion of its
-    corners [m^r].
+    coordinates, or (s, 1, d) for all where surfaces are flat; integrals ``height`` (s, k) of coordinates and the
+    heights of both surfaces along the distance [m^(r+1)], and integrals ``leaning`` (p, k, k, d) of coordinates on the
+    slave and the slopes under a motion of its corners [m^r].
     """
 
     facing: Array
@@ -81,14 +81,18 @@ class Entries(NamedTuple):
 
 
 class Room(NamedTuple):
-    """Sums of one row: terms ``sums`` (u, 2 + d) of the nodes, ``used`` (u,) nodes and the list ``listed`` of them, of
-    which there are ``number`` (1,), the sums ``mean`` (d,) of the normals and ``height`` (1,) of the heights, and
-    ``terms`` (1 + d,) of a vertex.
+    """Sums of one row: terms ``sums`` (u, 2 + d) of the nodes, ``used`` (u,) nodes and the list ``listed`` of them;
+    terms ``held`` (w, 1 + d) of the vertices of the master, the ``seen`` ones (w,) and the list ``opposite`` of them;
+    the lengths ``number`` (2,) of both lists, the sums ``mean`` (d,) of the normals and ``height`` (1,) of the heights,
+    and ``terms`` (1 + d,) of a vertex.
     """
 
     sums: Array
     used: BoolArray
     listed: IntArray
+    held: Array
+    seen: BoolArray
+    opposite: IntArray
     number: IntArray
     mean: Array
     height: Array

@@ -4,15 +4,20 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray
+from softway.kernels.linalg.weighted_rows import add_rows, find_extents
 
 ROOM = 64
 """Initial capacity in columns; it doubles when it is used up."""
 GROWTH = 256
 """Greatest growth of the capacity at a time beyond the request, in columns."""
 
+SPARSE = 2
+"""Places of all columns for each one between the first and the last entry, above which zeros are left out."""
+
 
 class ColumnCache:
-    """Cache of columns in the order in which they were added; ``batches`` lists the columns added together.
+    """Cache of columns in the order in which they were added; ``batches`` lists the columns added together, and
+    ``extent`` (count, 2) the places of their first and last entries that are not zero.
 
     Examples
     --------
@@ -22,13 +27,14 @@ class ColumnCache:
     ([2], [13.0, 24.0])
     """
 
-    __slots__ = ("batches", "count", "place", "room", "stored")
+    __slots__ = ("batches", "count", "extent", "place", "room", "stored")
 
     def __init__(self) -> None:
         self.count, self.room = 0, ROOM
         self.batches: tuple[IntArray, ...] = ()
         self.place = np.full(0, -1)
         self.stored = np.zeros((0, 0))
+        self.extent = np.zeros((0, 2), np.int64)
 
     def missing(self, which: IntArray) -> IntArray:
         """Subset of the columns ``which`` (k,) that are not stored yet."""
@@ -59,6 +65,9 @@ class ColumnCache:
         self.stored[self.count : end] = columns
         self.place[which] = np.arange(self.count, end)
         self.count = end
+        extent = np.empty((len(which), 2), np.int64)
+        find_extents(np.asarray(columns), extent)
+        self.extent = np.concatenate([self.extent, extent])
         self.batches = (*self.batches, which)
 
     def square(self, which: IntArray) -> Array:
@@ -66,7 +75,16 @@ class ColumnCache:
         return np.asarray(np.take(self.stored[self.place[which]], which, axis=1).T)
 
     def product(self, which: IntArray, amounts: Array, length: int | None = None) -> Array:
-        """Sum (m,) of columns times amounts (k,), or its first values up to a ``length``."""
+        """Sum (m,) of columns times amounts (k,), or its first values up to a ``length``.
+
+        Where columns are zero in most places, as those of many bodies, only the others are read.
+        """
+        m = self.stored.shape[1] if length is None else length
+        extent = self.extent[self.place[which]]
+        if SPARSE * int(np.sum(extent[:, 1] - extent[:, 0])) < self.count * m:
+            out = np.zeros(m)
+            add_rows(self.stored, self.place[which], np.asarray(amounts, float), extent, out)
+            return out
         full = np.zeros(self.count, self.stored.dtype)
         full[self.place[which]] = amounts
         if 2 * len(which) > self.count:

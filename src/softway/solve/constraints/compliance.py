@@ -9,10 +9,11 @@ import scipy.sparse as sp
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.dof_map import DofMap
 from softway.contact.contact_rows import ContactRows
+from softway.kernels.linalg.congruence import congruence_of_columns
 from softway.kernels.linalg.dense import DenseFactor
 from softway.solve.constraints.column_cache import ColumnCache
 from softway.solve.constraints.recent_factor import RecentFactor
-from softway.solve.constraints.row_basis import CombinedRows, RowCoefficients, UnitRows
+from softway.solve.constraints.row_basis import CombinedRows, RowCoefficients, UnitRows, joined_entries
 from softway.solve.linear.condensed_compliance import condensed_compliance
 from softway.solve.linear.interface import Factor, LinearSolver
 
@@ -37,6 +38,8 @@ class RowBasis:
         (k,) numbers of the rows that change.
     transposed
         (b, f) transposed directions.
+    direction
+        (f,) direction of each unknown that is one, -1 for the others.
     """
 
     directions: sp.csc_array
@@ -44,9 +47,14 @@ class RowBasis:
     place: IntArray | None = None
     changing: IntArray = field(default_factory=lambda: np.zeros(0, dtype=np.int64))
     transposed: sp.csr_array = field(init=False)
+    direction: IntArray = field(init=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "transposed", sp.csr_array(self.directions.T))
+        direction = np.full(self.directions.shape[0], -1)
+        if self.component is not None:
+            direction[self.component] = self.known + np.arange(len(self.component))
+        object.__setattr__(self, "direction", direction)
 
     @property
     def known(self) -> int:
@@ -59,17 +67,20 @@ class RowBasis:
 
     def coefficients(self, rows: ContactRows, dofs: DofMap) -> sp.csr_array:
         """Coefficients C (m, b) of the rows, ``G = C directions^T``."""
-        if self.place is None:
-            return sp.csr_array(rows.matrix(dofs)[:, self.component])
-        own = np.flatnonzero(self.place >= 0)
-        unit = sp.csr_array((np.ones(len(own)), (own, self.place[own])), shape=(len(rows.node), self.known))
+        own = np.zeros(0, np.int64) if self.place is None else np.flatnonzero(self.place >= 0)
         if self.component is None:
-            return unit
-        others = np.zeros(len(rows.node))
-        others[self.changing] = 1.0
-        rest = sp.csr_array(sp.diags_array(others) @ rows.matrix(dofs)[:, self.component])
-        rest.eliminate_zeros()
-        return sp.csr_array(sp.hstack([unit, rest], format="csr"))
+            assert self.place is not None
+            units = (np.ones(len(own)), (own, self.place[own]))
+            return sp.csr_array(units, shape=(len(rows.node), self.known))
+        matrix = rows.matrix(dofs)
+        column = self.direction[matrix.indices]
+        kept = column >= 0
+        if self.place is not None:
+            others = np.zeros(len(rows.node), bool)
+            others[self.changing] = True
+            kept &= np.repeat(others, np.diff(matrix.indptr)) & (matrix.data != 0.0)
+        unit = np.zeros(0, np.int64) if self.place is None else self.place[own]
+        return joined_entries(matrix, column, kept, (own, unit), self.directions.shape[1])
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -189,6 +200,13 @@ class FrozenOperator:
             return np.zeros((0, 0))
         self.fill(which)
         return self._times(self.table.square(which))
+
+    def folded(self, rows: sp.csr_array) -> Array:
+        """Compliance ``C B^T A^-1 B C^T`` (k, k) of rows C (k, b) along the directions."""
+        if not rows.nnz:
+            return np.zeros((rows.shape[0], rows.shape[0]))
+        self.fill(CombinedRows(rows).used)
+        return self._times(congruence_of_columns(rows, self.table.stored, self.table.place, self.table.extent))
 
     def solve_push(self, push: Array) -> Array:
         """Solution ``R A^-1 B push`` (f,) for forces ``push`` (b,) along the directions."""

@@ -190,8 +190,9 @@ class ContactPush:
 
 def delassus(frozen: FrozenOperator, active: RowCoefficients) -> Array:
     """Compliance (Delassus operator) ``G A^-1 G^T`` (k, k) of the active rows."""
-    used = active.used
-    return active.folded(frozen.square(used))
+    if isinstance(active, CombinedRows):
+        return frozen.folded(active.matrix)
+    return active.folded(frozen.square(active.used))
 
 
 def multipliers(frozen: FrozenOperator, active: RowCoefficients, wanted: Array) -> tuple[Array, ContactPush]:

@@ -152,7 +152,7 @@ class FixedPoint:
             system, new = system.followed(q, step.q, end)
             change = max(space.greatest(new - q), step.missed)
             sound, completed = check_facets(system, new, change)
-            yield _iterate(step, (new, change), (plain, memory), system, sound)
+            yield _iterate(step, q=new, change=change, free=plain, memory=memory, system=system, sound=sound)
             system = completed
             stuck = stuck + 1 if change > 0.99 * last else 0
             part = _next_part(part, change > SWING * last and bool((step.active != active).any()), system)
@@ -170,19 +170,22 @@ class FixedPoint:
 
 def _iterate(
     step: ContactStep,
-    found: tuple[Array, float],
-    kept: tuple[Array, OperatorMemory],
+    *,
+    q: Array,
+    change: float,
+    free: Array,
+    memory: OperatorMemory,
     system: SlabEquations,
     sound: bool,
 ) -> Iterate:
-    """Iterate of a step, from q (n, d) and its change, components (m,) without contact and memory."""
+    """Iterate of a step; arguments as of :class:`~softway.solve.methods.iteration.Iterate`."""
     return Iterate(
-        q=found[0],
-        change=found[1],
+        q=q,
+        change=change,
         impulse=step.impulse,
         active=step.active,
-        free=kept[0],
-        memory=kept[1],
+        free=free,
+        memory=memory,
         system=system,
         sound=sound and step.settled,
     )

@@ -3,7 +3,8 @@
 import numpy as np
 import pytest
 
-from softway.contact.mortar.dual_basis import DUAL, MEAN, dual_basis, warping
+from softway.contact.mortar.dual_basis import dual_basis, warping
+from softway.kernels.mortar.dual_basis import DUAL, MEAN
 from softway.meshes.element import element
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import scipy.sparse as sp
 
-from softway.kernels.linalg.congruence import WIDTH, congruence
+from softway.kernels.linalg.congruence import WIDTH, congruence, congruence_of_columns
 
 SIZES = [(0, 0), (1, 1), (3, 7), (WIDTH, WIDTH), (WIDTH + 1, 2 * WIDTH - 1), (150, 40)]
 
@@ -38,3 +38,21 @@ def test_other_numbers_are_as_by_sparse_products(k: int, b: int, kind: type) -> 
 def test_rows_may_have_their_entries_in_any_order() -> None:
     rows = sp.csr_array((np.array([2.0, 1.0]), np.array([1, 0]), np.array([0, 2])), shape=(1, 2))
     assert congruence(rows, np.array([[1.0, 0.5], [0.5, 3.0]])).tolist() == [[15.0]]
+
+
+def test_columns_of_two_bodies_in_any_order() -> None:
+    """The compliance of two bodies: its columns are zero on the other body."""
+    rng = np.random.default_rng(5)
+    sizes = WIDTH + 6, 2 * WIDTH - 3
+    matrix = np.zeros((sum(sizes),) * 2)
+    for part in (slice(0, sizes[0]), slice(sizes[0], sum(sizes))):
+        half = rng.integers(-3, 4, (part.stop - part.start,) * 2)
+        matrix[part, part] = half + half.T
+    dense = rng.integers(-2, 3, (7, sum(sizes))) * (rng.random((7, sum(sizes))) < 0.2)
+    order = rng.permutation(len(matrix))
+    place = np.argsort(order)
+    extent = np.where(order[:, None] < sizes[0], [0, sizes[0]], [sizes[0], sum(sizes)])
+    stored = matrix[order]
+    rows = sp.csr_array(dense.astype(float))
+    assert np.array_equal(congruence_of_columns(rows, stored, place, extent), dense @ matrix @ dense.T)
+    assert np.array_equal(congruence_of_columns(rows, stored, place), dense @ matrix @ dense.T)

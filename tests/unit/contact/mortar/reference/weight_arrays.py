@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
+from dual_arrays import dual_basis, warping
 
 from softway.arrays import Array, IntArray
-from softway.contact.mortar.dual_basis import dual_basis, warping
 from softway.contact.mortar.linear_surface import LinearSurface, pieces
 
 LEAST = 1e-9
