@@ -190,3 +190,30 @@ def test_a_cell_that_folds_is_told_as_on_one_process() -> None:
     assert {e.kind for e in one} & {FLAT_CELL, INVERTED}
     assert [(e.node, e.time, e.finding) for e in three] == [(e.node, e.time, e.finding) for e in one]
     assert [(e.kind, e.node) for e in one] == [(e.kind, e.node) for e in theirs if e.finding]
+
+
+@pytest.mark.slow
+def test_three_blocks_in_space_each_of_which_may_touch_each_move_as_on_one_process() -> None:
+    """Rows of edges that cross are redundant; no iterate of conjugate gradients may close dependent ones."""
+
+    def block(at: tuple[float, float, float], velocity: tuple[float, float, float]) -> sw.Solid:
+        mesh = sw.meshes.Box(size=(1.0, 0.8, 0.6), cells=(3, 3, 3), origin=at)
+        return sw.Solid(mesh=mesh, material=SOFT, density=1.0, velocity=sw.bodies.Uniform(value=velocity))
+
+    bodies = {
+        "bed": block((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),
+        "block": block((0.13, 0.17, 0.605), (0.5, 0.0, -5.0)),
+        "side": block((1.145, 0.3, 0.05), (-5.0, 0.0, 0.0)),
+    }
+    model = build(sw.Scene(bodies=bodies, contacts=(sw.Contact(between="all"),)))
+    given = replace(GIVEN, until=0.003)
+    ours, theirs = steps(Alone(), model, given), list(sw.march(model, until=0.003, step=5e-4))
+    assert [told(s) for s in over(2, model, given)] == [told(s) for s in ours]
+    plain = list(sw.march(model, until=0.003, step=5e-4, method=sw.FixedPoint(operator=sw.solve.ConjugateGradients())))
+    assert {e.kind for step in ours for e in step.events} >= {"touch"}
+    for mine, one, other in zip(ours, plain, theirs, strict=True):
+        assert abs(mine.certificate.energy_error) < 1e-11 * 20.0
+        for body in bodies:
+            assert mine.after.displacement[body] == pytest.approx(other.after.displacement[body], abs=1e-12)
+            assert mine.after.velocity[body] == pytest.approx(other.after.velocity[body], abs=1e-9)
+            assert one.after.velocity[body] == pytest.approx(other.after.velocity[body], abs=1e-9)
