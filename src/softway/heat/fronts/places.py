@@ -12,7 +12,8 @@ import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.errors import NoConvergence
-from softway.heat.heat_model import FrontCells, HeatModel
+from softway.heat.fronts.front_cells import FrontCells
+from softway.heat.heat_model import HeatModel
 from softway.heat.operators import HeatValues
 
 CROSSED = 1e-12

@@ -170,7 +170,7 @@ def normal_sweeps(
 def _alone(
     elimination: Elimination, equations: Equations, rows: BoolArray, floor: float
 ) -> Callable[[Array, Array, Array], BoolArray]:
-    """Rows (m,) to close where ``rows`` (m,) may, from gaps (m,), the residual (f,) there and forces (m,) to begin with."""
+    """Rows (m,) to close where ``rows`` (m,) may, from gaps (m,), the residual (f,) and forces (m,) to begin with."""
     lifted = sp.csr_array(elimination.local.solve(sp.csc_array(equations.matrix.T)))
     contact = LocalContact(sp.csr_array(equations.matrix @ lifted), rows, floor)
     pulled = sp.csr_array(lifted.T)

@@ -38,7 +38,7 @@ class LocalContact:
     floor: float
 
     def pressing(self, bare: Array, start: Array) -> BoolArray:
-        """Rows (m,) with a force p > 0 where ``p >= 0``, ``b + S p >= 0`` and ``p (b + S p) = 0``, linearly independent.
+        """Independent rows (m,) with a force p > 0 where ``p >= 0``, ``b + S p >= 0`` and ``p (b + S p) = 0``.
 
         Parameters
         ----------
