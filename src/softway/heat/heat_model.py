@@ -10,8 +10,8 @@ from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.assembled.vector_space import LocalSpace, VectorSpace
 from softway.bodies.conductor import Conductor
 from softway.bodies.elements.following_heat import FollowingHeat
+from softway.bodies.elements.front_cells import FrontCells
 from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, SurfaceHeat, Temperature
-from softway.heat.fronts.front_cells import FrontCells
 from softway.heat.heat_contact import HeatContact, HeatExchange
 from softway.kernels.assembly.assembler import Assembler
 from softway.laws.heat.conduction import Conduction

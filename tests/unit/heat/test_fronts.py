@@ -8,7 +8,7 @@ from scipy.special import erf
 import softway as sw
 from neumann import DENSITY, HEAT, MELTING, front, ice, neumann
 from softway.arrays import Array
-from softway.heat.fronts.front_cells import FrontCells
+from softway.bodies.elements.front_cells import FrontCells
 from softway.heat.fronts.places import first_fronts, overflowed, passed
 from softway.meshes.generators.shapes import interval, rectangle
 

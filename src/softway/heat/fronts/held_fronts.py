@@ -11,8 +11,8 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array
+from softway.bodies.elements.front_cells import FrontCells
 from softway.bodies.setup.heat_loads import Radiation, Temperature
-from softway.heat.fronts.front_cells import FrontCells
 from softway.heat.fronts.places import Fronts
 from softway.heat.heat_balance import Stage
 from softway.heat.heat_contact import HeatExchange
