@@ -10,17 +10,14 @@ as much work for each of two ranks as a cube for one.  Without ``mpiexec`` it is
 import argparse
 import json
 import resource
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterator
 from pathlib import Path
 from time import perf_counter, process_time
-from typing import Any, TypeVar
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 import softway as sw
-from softway.arrays import Array
 from softway.cluster.march import march_on
 from softway.marching.results.step import Step
 from softway.marching.state.march_state import Settings
@@ -28,61 +25,11 @@ from softway.marching.state.step_control import StepControl
 from softway.model.model import Model
 from softway.model.time_weight import EndPeaks
 from softway.ranks.alone import Alone
-from softway.ranks.interface import Exchange, Ranks
+from softway.ranks.counted import Counted
 from softway.ranks.mpi import launched, processes
 
-Result = TypeVar("Result")
 SPEED, WAVES = 5.0, 116.0
 """Speed of the cube, and of waves of pressure in it [m/s]."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Timed:
-    """One rank, with the time that it spends in communication."""
-
-    ranks: Ranks
-    spent: dict[str, float] = field(default_factory=lambda: {"clock": 0.0, "cpu": 0.0})
-
-    @property
-    def rank(self) -> int:
-        """Number of this rank."""
-        return self.ranks.rank
-
-    @property
-    def size(self) -> int:
-        """Number of ranks."""
-        return self.ranks.size
-
-    def added(self, numbers: NDArray[np.int64]) -> NDArray[np.int64]:
-        """Sum over the ranks."""
-        return self._timed(lambda: self.ranks.added(numbers))
-
-    def greatest(self, values: Array) -> Array:
-        """Greatest values over the ranks."""
-        return self._timed(lambda: self.ranks.greatest(values))
-
-    def exchanged(self, exchange: Exchange, values: Array) -> Array:
-        """Field with the received values."""
-        return self._timed(lambda: self.ranks.exchanged(exchange, values))
-
-    def gathered(self, values: NDArray[Any]) -> tuple[NDArray[Any], ...]:
-        """Arrays of all ranks."""
-        return self._timed(lambda: self.ranks.gathered(values))
-
-    def collected(self, values: NDArray[Any]) -> tuple[NDArray[Any], ...]:
-        """Arrays of all ranks on rank 0."""
-        return self._timed(lambda: self.ranks.collected(values))
-
-    def told(self, value: Any) -> Any:
-        """The value of rank 0."""
-        return self._timed(lambda: self.ranks.told(value))
-
-    def _timed(self, call: Callable[[], Result]) -> Result:
-        clock, cpu = perf_counter(), process_time()
-        found = call()
-        self.spent["clock"] += perf_counter() - clock
-        self.spent["cpu"] += process_time() - cpu
-        return found
 
 
 def thrown(cells: int, wide: int, cell: str, gap: float) -> sw.Scene:
@@ -109,7 +56,7 @@ def facts(number: int, slab: Step, energy: float) -> dict[str, Any]:
     }
 
 
-def marched(ranks: Timed, model: Model, step: float, slabs: int) -> Iterator[dict[str, Any]]:
+def marched(ranks: Counted, model: Model, step: float, slabs: int) -> Iterator[dict[str, Any]]:
     """Facts of each slab on rank 0, and on every rank the processor time since the last one."""
     energy = float(model.kinetic(model.velocity).sum())
     method, control = sw.FixedPoint(handover=False), StepControl()
@@ -151,7 +98,7 @@ def main() -> None:
     parser.add_argument("--crossed", type=float, default=1.2, help="cells that a wave crosses in a slab")
     parser.add_argument("--slabs", type=int, default=8)
     given = parser.parse_args()
-    ranks, begun = Timed(processes() if launched() else Alone()), process_time()
+    ranks, begun = Counted(ranks=processes() if launched() else Alone()), process_time()
     step = given.crossed / (given.cells * WAVES)
     model = sw.build(thrown(given.cells, given.wide, given.cell, 1.25 * SPEED * step))
     told, found = {"unknowns": model.dofs.size, "built": process_time() - begun} | memory(), []

@@ -2,11 +2,15 @@
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from softway.bodies.dof_map import NodalDofs
+from softway.bodies.setup.heat_loads import Radiation
 from softway.bodies.solid import Driven, Guided
 from softway.cluster.rank_contacts import served
 from softway.contact.impact_rule import Energy
 from softway.errors import InputError
+from softway.heat.coupled.solid_temperature import SolidTemperature, temperatures_of
 from softway.laws.law import Viscous
 from softway.marching.rules.slab_rule import Method
 from softway.model.model import Model
@@ -38,8 +42,10 @@ def _of_scene(model: Model) -> Iterator[tuple[str, str]]:
         yield "inertia", "a march without inertia"
     if model.adapted or model.remeshed or any(getattr(b, "adapt", None) for b in model.scene.bodies.values()):
         yield "bodies", "meshes that change in the march"
-    if model.companions:
-        yield "ties" if model.bonds else "bodies", "ties that break" if model.bonds else "a field beside the motion"
+    if model.bonds:
+        yield "ties", "ties that break"
+    for _, temperature in temperatures_of(model.companions):
+        yield from _of_heat(temperature)
 
 
 def _of_solids(model: Model) -> Iterator[tuple[str, str]]:
@@ -58,6 +64,28 @@ def _of_solids(model: Model) -> Iterator[tuple[str, str]]:
     for support, _ in model.driven:
         if not isinstance(support, Driven | Guided):
             yield "bodies", f"the support {type(support).__name__}"
+
+
+def _of_heat(temperature: SolidTemperature) -> Iterator[tuple[str, str]]:
+    heat = temperature.model
+    for part in heat.parts:
+        where = f"bodies.{part.name}.thermal"
+        if part.law.latent is not None:
+            yield f"{where}.law", "heat of melting"
+        here = np.arange(len(heat.mass))[part.nodes]
+        if any(np.isin(nodes, here).any() for nodes, _ in temperature.moduli.curves):
+            yield f"{where}.stiffness", "moduli that depend on the temperature"
+    for expansion in temperature.expansions:
+        if expansion.relieved is not None:
+            problem = "thermal expansion of a law with a history in a body with free faces"
+            yield f"bodies.{expansion.solid}.thermal.expansion", problem
+    for surface in heat.surfaces:
+        if isinstance(surface.load, Radiation):
+            yield "loads", "radiation of a surface"
+    if heat.conduction is None:
+        yield "bodies", "conductivities and capacities that depend on the temperature"
+    if heat.exchanges or temperature.glue or temperature.links or heat.lumps:
+        yield "bodies", "heat through ties and into rigid bodies"
 
 
 def _of_contacts(model: Model) -> Iterator[tuple[str, str]]:

@@ -19,7 +19,7 @@ class Change:
     Parameters
     ----------
     nodal
-        Changes a nodal field (n, d).
+        Changes a nodal field (n, ...).
     material
         Changes the material state of the solid with this number.
     rows
@@ -45,6 +45,7 @@ def changed_state(state: MarchState, change: Change) -> MarchState:
         force=change.nodal(start.force),
         viscous=None if start.viscous is None else change.nodal(start.viscous),
         states=_materials(start.states, change),
+        fields=tuple(replace(f, values=change.nodal(f.values), force=change.nodal(f.force)) for f in start.fields),
     )
     acceleration = change.nodal(model_state.acceleration)
     changed = replace(

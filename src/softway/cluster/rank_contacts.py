@@ -57,11 +57,11 @@ def rank_friction(model: Model, held: Holding) -> FrictionRows:
 
 def _patch(patch: AreaPatch, held: Holding) -> AreaPatch:
     """Surfaces of rows on local nodes."""
-    surfaces = tuple(_declared(surface, held) for surface in patch.surfaces)
+    surfaces = tuple(rank_surface(surface, held) for surface in patch.surfaces)
     return replace(patch, node=held.local(patch.node), surfaces=surfaces)
 
 
-def _declared(surface: DeclaredSurface, held: Holding) -> DeclaredSurface:
+def rank_surface(surface: DeclaredSurface, held: Holding) -> DeclaredSurface:
     """Declared surface with the local nodes of its solid."""
     own = local_nodes(surface.nodes, held)
     numbers = held.nodes[own] - surface.nodes.start

@@ -15,6 +15,8 @@ from softway.cluster.cells.rank_force import DeclaredForce, rank_force
 from softway.cluster.cells.rank_mesh import local_nodes, rank_mesh
 from softway.cluster.own_rows import columns, own_rows
 from softway.cluster.rank_contacts import rank_contacts, rank_friction
+from softway.cluster.rank_temperature import rank_temperature
+from softway.heat.coupled.solid_temperature import temperatures_of
 from softway.meshes.mesh import Mesh
 from softway.model.model import Model
 from softway.ranks.interface import Ranks
@@ -30,6 +32,7 @@ def held_by(model: Model, ranks: Ranks) -> Holding:
     owner = owners(cells, rank_of, model.shape[0])
     mine = np.flatnonzero(owner == ranks.rank)
     seen = [columns(matrix, mine) for matrix in (model.mass, model.follow, model.passing)]
+    seen.append(np.array([part.nodes.start for part in model.parts]))  # temperatures are told from those of these nodes
     return holding(ranks, cells, owner, np.concatenate([model.touchable, *seen]))
 
 
@@ -44,10 +47,12 @@ def rank_model(model: Model, held: Holding, ranks: Ranks) -> Model:
     )
     matrices: Any = {name: own_rows(getattr(model, name), held) for name in ("mass", "passing")}
     matrices["follow"] = own_rows(model.follow, held, space)
+    parts = tuple(_part(model, k, pieces, held, ranks) for k in range(len(model.parts)))
+    fields = tuple(rank_temperature(one, model, parts, held, space) for _, one in temperatures_of(model.companions))
     names = ("massive", "part_of", "load", "load_before", "weight", "displacement", "velocity", "edge")
     return replace(
         model,
-        parts=tuple(_part(model, k, pieces, held, ranks) for k in range(len(model.parts))),
+        parts=parts,
         dofs=dofs,
         loads=loads,
         contacts=rank_contacts(model.contacts, held, space),
@@ -55,6 +60,7 @@ def rank_model(model: Model, held: Holding, ranks: Ranks) -> Model:
         touchable=held.local(model.touchable),
         driven=tuple((support, where[nodes]) for support, where in model.driven),
         space=space,
+        companions=fields,
         total=cast(Any, None),
         **matrices,
         **{name: getattr(model, name)[nodes] for name in names},

@@ -189,10 +189,11 @@ def _gathered_fields(ranks: Ranks, numbers: RankNumbers, fields_: list[Array]) -
     where = ranks.collected(held.nodes[held.own])
     if ranks.rank:
         return []
-    out = np.empty((numbers.shape[0], len(fields_) * numbers.shape[1]))
+    ends = np.cumsum([f.shape[1] for f in fields_])
+    out = np.empty((numbers.shape[0], ends[-1]))
     for nodes, own in zip(where, values, strict=True):
         out[nodes] = own
-    return [np.ascontiguousarray(f) for f in np.split(out, len(fields_), axis=1)]
+    return [np.ascontiguousarray(f) for f in np.split(out, ends[:-1], axis=1)]
 
 
 def _gathered_points(ranks: Ranks, numbers: RankNumbers, number: int, mine: MaterialState) -> Array | None:

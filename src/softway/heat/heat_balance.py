@@ -157,13 +157,13 @@ def put_at_once(model: HeatModel, before: HeatValues, time: float) -> tuple[Heat
     brought, carried, after = np.zeros(len(model.held)), 0.0, before
     target = prescribed(model, before.unknowns, time)
     for k, (_, nodes) in enumerate(model.held):
-        if (after.unknowns[nodes] != target[nodes]).any():
-            unknowns = after.unknowns.copy()
-            unknowns[nodes] = target[nodes]
+        unknowns = after.unknowns.copy()
+        unknowns[nodes] = target[nodes]
+        if not model.space.every(unknowns == after.unknowns):
             changed = heat_values(model, unknowns)
             gained = changed.content - after.content
-            brought[k] = gained.sum()
-            carried += float((gained / changed.temperature).sum())
+            brought[k] = model.space.total(gained)
+            carried += model.space.total(gained / changed.temperature)
             after = changed
     return after, brought, carried
 
@@ -176,29 +176,30 @@ def balance(model: HeatModel, before: HeatValues, stage: Stage, unknowns: Array,
     liquid = (1.0 - theta) * before.liquid + theta * after.liquid
     flow, matrix, by_liquid = heat_flow(model, mean, liquid, slopes)
     gained = after.content - before.content
-    moved = np.abs(gained).sum() + h * np.abs(flow).sum()
+    moved, through = np.abs(gained) + h * np.abs(flow), 0.0
     for exchange in model.exchanges:
         heat = exchange.heat(mean)
-        flow, moved = flow + exchange.jump.T @ heat, moved + h * np.abs(heat).sum()
+        flow, through = flow + exchange.jump.T @ heat, through + h * float(np.abs(heat).sum())
         if matrix is not None:
             matrix = matrix + exchange.matrix()
     values = gained + h * flow
     for surface, factor in zip(model.surfaces, factors(model, stage), strict=True):
         heat, slope = surface_heat(surface, mean, factor)
-        values, moved = values - h * (surface.points.T @ heat), moved + h * np.abs(heat).sum()
+        values, moved = values - h * (surface.points.T @ heat), moved + h * (surface.points.T @ np.abs(heat))
         if matrix is not None and slope.any():
             matrix = matrix - surface.points.T @ sp.diags_array(slope) @ surface.points
     for power in powers(model, stage):
-        values, moved = values - h * power, moved + h * np.abs(power).sum()
+        values, moved = values - h * power, moved + h * np.abs(power)
     total = None if matrix is None else _matrix(after, matrix, by_liquid, theta * h)
     strain = None if stage.strain is None else stage.strain.over(h, before, after)
     if stage.strain is not None and strain is not None:
         given = h * stage.strain.power
-        values, moved = values + strain.taken - given, moved + np.abs(strain.taken).sum() + np.abs(given).sum()
+        values, moved = values + strain.taken - given, moved + np.abs(strain.taken) + np.abs(given)
         if total is not None and not model.linear:
             total = sp.csr_array(total + _of_strain(model, strain, after))
     return Balance(
-        after=after, values=values, moved=float(moved), matrix=total, mean=mean, flow=flow, strain=strain
+        after=after, values=values, moved=model.space.total(moved) + through, matrix=total, mean=mean, flow=flow,
+        strain=strain,
     )  # fmt: skip
 
 
@@ -232,12 +233,13 @@ def _assembled(entries: Entries, shape: tuple[int, int]) -> sp.csr_array:
 
 def heats(model: HeatModel, before: HeatValues, stage: Stage, found: Balance) -> Array:
     """Heat that came in by each load on a surface, each source and each prescribed temperature, in this order [J]."""
-    surfaces = [
-        surface_heat(surface, found.mean, factor)[0].sum() * stage.span
+    each = [
+        surface.points.T @ surface_heat(surface, found.mean, factor)[0] * stage.span
         for surface, factor in zip(model.surfaces, factors(model, stage), strict=True)
     ]
-    sources = [power.sum() * stage.span for power in powers(model, stage)]
-    return np.array([*surfaces, *sources, *(found.values[nodes].sum() for _, nodes in model.held)])
+    each += [power * stage.span for power in powers(model, stage)]
+    each += [np.where(np.isin(np.arange(model.n_nodes), nodes), found.values, 0.0) for _, nodes in model.held]
+    return model.space.sums(np.stack(each, axis=1)) if each else np.zeros(0)
 
 
 def passed(model: HeatModel, stage: Stage, found: Balance) -> Array:
@@ -247,14 +249,13 @@ def passed(model: HeatModel, stage: Stage, found: Balance) -> Array:
 
 def entropy_brought(model: HeatModel, stage: Stage, found: Balance) -> float:
     """Entropy that loads brought [J/K]: their heats over the temperatures at which they came in."""
-    total = 0.0
+    brought = np.where(model.free_nodes(), 0.0, found.values / found.mean)
     for surface, factor in zip(model.surfaces, factors(model, stage), strict=True):
         heat, _ = surface_heat(surface, found.mean, factor)
-        total += stage.span * float((heat / (surface.points @ found.mean)).sum())
+        brought = brought + stage.span * (surface.points.T @ (heat / (surface.points @ found.mean)))
     for power in powers(model, stage):
-        total += stage.span * float((power / found.mean).sum())
-    held = ~model.free_nodes()
-    return total + float((found.values[held] / found.mean[held]).sum())
+        brought = brought + stage.span * power / found.mean
+    return model.space.total(brought)
 
 
 def entropy_of_reservoirs(model: HeatModel, stage: Stage, found: Balance) -> float:
@@ -268,11 +269,12 @@ def entropy_of_reservoirs(model: HeatModel, stage: Stage, found: Balance) -> flo
 
 def rounding(model: HeatModel, before: HeatValues, stage: Stage) -> float:
     """Rounding of the sum of the heats of the nodes [J]."""
-    total = 2.0 * float(np.abs(before.content).sum())
+    each = 2.0 * np.abs(before.content)
     if stage.strain is not None or model.fronts is not None:  # temperatures are rounded, whatever is counted from
-        total += 2.0 * float((before.capacity / before.stretch) @ before.temperature)
+        each = each + 2.0 * (before.capacity / before.stretch) * before.temperature
     if model.conduction is not None:
-        total += 2.0 * stage.span * float(model.conduction.diagonal() @ np.abs(before.temperature))
+        each = each + 2.0 * stage.span * model.conduction.diagonal() * np.abs(before.temperature)
+    total = model.space.total(each)
     temperature = model.everywhere(before.temperature)
     for cells in model.cells if model.conduction is None else ():
         at = np.abs(temperature[cells.nodes]).max(axis=1)
@@ -280,7 +282,7 @@ def rounding(model: HeatModel, before: HeatValues, stage: Stage) -> float:
         size = np.einsum("eq,eqar->er", cells.volume, cells.gradients**2)
         total += stage.span * float((size * k).sum(axis=1) @ at)
     for exchange in model.exchanges:
-        total += 2.0 * stage.span * float(exchange.conductances.sum()) * float(np.abs(before.temperature).max())
+        total += 2.0 * stage.span * float(exchange.conductances.sum()) * model.space.greatest(before.temperature)
     return ROUNDING * total
 
 

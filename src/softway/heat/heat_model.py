@@ -7,8 +7,10 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.bodies.assembled.vector_space import LocalSpace, VectorSpace
 from softway.bodies.conductor import Conductor
 from softway.bodies.elements.following_heat import FollowingHeat
+from softway.bodies.elements.front_cells import FrontCells
 from softway.bodies.setup.heat_loads import HeatLoad, HeatSource, SurfaceHeat, Temperature
 from softway.heat.heat_contact import HeatContact, HeatExchange
 from softway.kernels.assembly.assembler import Assembler
@@ -141,52 +143,6 @@ class Simplices:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class Phases:
-    """Nodes of a body, and the specific contents of its solid and its liquid at any temperature."""
-
-    nodes: slice
-    solid: ContentCurve
-    liquid: ContentCurve
-
-    def content(self, liquid: BoolArray) -> MixedContent:
-        """Specific content of nodes (n,) in their phases."""
-        here = liquid[self.nodes]
-        return MixedContent(curves=(self.solid, self.liquid), shares=np.stack([~here, here]).astype(float))
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class FrontCells:
-    """Cells of bars in which there may be a front.
-
-    Parameters
-    ----------
-    nodes, numbers
-        (c, 2) their nodes, and (c,) their numbers among all cells.
-    latent
-        (c,) latent heat of the liquid cell [J].
-    solid, liquid
-        (c,) conductances of the whole cell in each phase [W/K].
-    melting, capacity
-        (n,) temperatures of melting [K], not a number at other nodes, and capacities there [J/K].
-    phases
-        Specific contents of the phases by bodies.
-    """
-
-    nodes: IntArray
-    numbers: IntArray
-    latent: Array
-    solid: Array
-    liquid: Array
-    melting: Array
-    capacity: Array
-    phases: tuple[Phases, ...]
-
-    def around(self, node: int) -> IntArray:
-        """Cells (k,) of a node."""
-        return np.flatnonzero((self.nodes == node).any(axis=1))
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class HeatSurface:
     """Heat exchange at points of a surface: interpolation (p, n) and areas (p,) [m^2]."""
 
@@ -238,6 +194,8 @@ class HeatModel:
         (n,) their capacities [J/K].
     lumps
         Rigid bodies.
+    space, free_space
+        Sums over the nodes, and over those without a prescribed temperature.
     """
 
     parts: tuple[HeatPart, ...]
@@ -259,6 +217,13 @@ class HeatModel:
     capacity: Array | None = None
     lumps: tuple[Lump, ...] = ()
     hanging: FollowingHeat | None = None
+    space: VectorSpace = LocalSpace(())
+    free_space: VectorSpace = LocalSpace(())
+
+    @property
+    def whole(self) -> bool:
+        """True if this process has all nodes."""
+        return isinstance(self.space, LocalSpace)
 
     @property
     def n_nodes(self) -> int:
@@ -292,3 +257,8 @@ class HeatModel:
         for _, nodes in self.held:
             free[nodes] = False
         return free
+
+    @property
+    def some_free(self) -> bool:
+        """True if a node has no prescribed temperature."""
+        return self.space.total(self.free_nodes()) > 0.0

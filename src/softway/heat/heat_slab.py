@@ -25,7 +25,7 @@ from softway.heat.heat_model import HeatModel
 from softway.heat.operators import HeatValues, heat_values, unknowns_of
 from softway.solve.linear.backends.superlu import SuperLU, factor_unsymmetric
 from softway.solve.linear.interface import Factor, LinearSolver
-from softway.solve.linear.weak_coupling import Links, WeaklyCoupled, factor_unless_weak
+from softway.solve.linear.weak_coupling import DiagonalGradients, Links, factor_unless_weak
 
 HALVINGS = 8
 """Greatest number of halvings of a slab that does not converge."""
@@ -53,7 +53,7 @@ class HeatFactor:
         """Factor of the model with ``exchanges``, for its ``free`` nodes (n,); None if it has to be factored anew."""
         if not exchanges:
             return self
-        if not isinstance(self.factor, WeaklyCoupled):
+        if not isinstance(self.factor, DiagonalGradients):
             return None
         jump = sp.csr_array(sp.vstack([e.jump for e in exchanges], format="csr"))
         jump = jump if free.all() else sp.csr_array(jump[:, free])
@@ -120,17 +120,17 @@ def linear_factor(model: HeatModel, span: float, linear: LinearSolver = SuperLU(
     [1.0, 1.0]
     """
     free = model.free_nodes()
-    if not model.linear or not free.any():
+    if not model.linear or not model.some_free:
         return None
     unknowns = unknowns_of(model, model.initial)
     stage = Stage(start=0.0, span=span, theta=1.0)
     found = balance(model, heat_values(model, unknowns), stage, unknowns, slopes=True)
-    return HeatFactor(span=span, factor=factor_unless_weak(_of_free(found, free), linear))
+    return HeatFactor(span=span, factor=factor_unless_weak(_of_free(found, free), linear, model.free_space))
 
 
 def is_weak(factor: HeatFactor | None) -> bool:
     """True if hardly any heat flows from node to node in the stages of a factor: they have no modes that ring."""
-    return factor is not None and isinstance(factor.factor, WeaklyCoupled)
+    return factor is not None and isinstance(factor.factor, DiagonalGradients) and factor.factor.weak
 
 
 def solve_slab(
@@ -215,7 +215,7 @@ def solve_stage(
     tolerance = TOLERANCE if stage.strain is None else MOVING
     for iteration in range(ITERATIONS):
         found = balance(model, before, stage, unknowns, slopes=frozen is None)
-        size = float(np.abs(found.values[free]).sum())
+        size = model.free_space.total(np.abs(found.values[free]))
         if not np.isfinite(size):
             break
         floor = floor if model.fronts is None else max(floor, rounding(model, found.after, stage))  # far trials
@@ -223,12 +223,12 @@ def solve_stage(
             return result_of(model, before, stage, found, iteration, frozen, floor)
         if frozen is not None:
             step = frozen.factor.solve(-found.values[free])
-        elif not free.any():
+        elif not model.some_free:
             step = np.zeros(0)
         else:
-            own = _of_free(found, free)
-            factored = factor_unless_weak(own, linear) if model.linear else factor_unsymmetric(own)
-            frozen = HeatFactor(span=stage.theta * stage.span, factor=factored) if model.linear else None
+            own, space, span = _of_free(found, free), model.free_space, stage.theta * stage.span
+            factored = factor_unless_weak(own, linear, space) if model.linear else factor_unsymmetric(own)
+            frozen = HeatFactor(span=span, factor=factored) if model.linear else None
             step = factored.solve(-found.values[free])
         unknowns = _corrected(model, before, stage, unknowns, step, free, found)
     raise NoConvergence(f"the heats of the nodes are not balanced after {ITERATIONS} iterations")
@@ -282,8 +282,8 @@ def _corrected(
     def along(length: float) -> float:
         return float(balance(model, before, stage, at(length), slopes=False).values[free] @ step)
 
-    start = float(found.values[free] @ step)
-    return at(_length(along, start) if model.simplices and start < 0.0 else 1.0)
+    start = float(found.values[free] @ step) if model.simplices else 0.0
+    return at(_length(along, start) if start < 0.0 else 1.0)
 
 
 def _length(along: Callable[[float], float], start: float) -> float:

@@ -1,8 +1,10 @@
-"""Ranks that count what they send."""
+"""Ranks that count what they send, and the time that it takes."""
 
 from collections import Counter
+from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import Any
+from time import perf_counter, process_time
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -10,11 +12,13 @@ from numpy.typing import NDArray
 from softway.arrays import Array
 from softway.ranks.interface import Exchange, Ranks
 
+Result = TypeVar("Result")
+
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class Counted:
-    """One rank, with the numbers of its calls by name, and the bytes that it sends in them; see
-    :class:`~softway.ranks.interface.Ranks`.
+    """One rank, with the numbers of its calls by name, the bytes that it sends in them, and the time that it spends in
+    all of them; see :class:`~softway.ranks.interface.Ranks`.
 
     Parameters
     ----------
@@ -22,6 +26,8 @@ class Counted:
         The rank that is counted.
     calls, sent
         Calls, and bytes, by the name of the method.
+    spent
+        Time by the ``clock``, and of the processor, ``cpu`` [s].  Processes that wait for a message of MPI spin.
 
     Examples
     --------
@@ -34,6 +40,7 @@ class Counted:
     ranks: Ranks
     calls: Counter[str] = field(default_factory=Counter)
     sent: Counter[str] = field(default_factory=Counter)
+    spent: dict[str, float] = field(default_factory=lambda: {"clock": 0.0, "cpu": 0.0})
 
     @property
     def rank(self) -> int:
@@ -47,36 +54,36 @@ class Counted:
 
     def added(self, numbers: NDArray[np.int64]) -> NDArray[np.int64]:
         """Sum over the ranks."""
-        self._count("added", numbers.nbytes)
-        return self.ranks.added(numbers)
+        return self._counted("added", numbers.nbytes, lambda: self.ranks.added(numbers))
 
     def greatest(self, values: Array) -> Array:
         """Greatest values over the ranks."""
-        self._count("greatest", values.nbytes)
-        return self.ranks.greatest(values)
+        return self._counted("greatest", values.nbytes, lambda: self.ranks.greatest(values))
 
     def exchanged(self, exchange: Exchange, field: Array) -> Array:
         """Field with the received values."""
         nodes = sum(map(len, exchange.send.values()))
-        self._count("exchanged", nodes * int(np.prod(field.shape[1:])) * field.itemsize)
-        return self.ranks.exchanged(exchange, field)
+        size = nodes * int(np.prod(field.shape[1:])) * field.itemsize
+        return self._counted("exchanged", size, lambda: self.ranks.exchanged(exchange, field))
 
     def gathered(self, field: NDArray[Any]) -> tuple[NDArray[Any], ...]:
         """Arrays of all ranks."""
-        self._count("gathered", field.nbytes)
-        return self.ranks.gathered(field)
+        return self._counted("gathered", field.nbytes, lambda: self.ranks.gathered(field))
 
     def collected(self, field: NDArray[Any]) -> tuple[NDArray[Any], ...]:
         """Arrays of all ranks on rank 0."""
-        self._count("collected", field.nbytes)
-        return self.ranks.collected(field)
+        return self._counted("collected", field.nbytes, lambda: self.ranks.collected(field))
 
     def told(self, value: Any) -> Any:
         """The value of rank 0."""
-        self._count("told", 0)
-        return self.ranks.told(value)
+        return self._counted("told", 0, lambda: self.ranks.told(value))
 
-    def _count(self, name: str, size: int) -> None:
-        """Count a call that sends ``size`` bytes."""
+    def _counted(self, name: str, size: int, call: Callable[[], Result]) -> Result:
+        """Result of a call that sends ``size`` bytes."""
         self.calls[name] += 1
         self.sent[name] += size
+        clock, cpu = perf_counter(), process_time()
+        found = call()
+        self.spent["clock"] += perf_counter() - clock
+        self.spent["cpu"] += process_time() - cpu
+        return found

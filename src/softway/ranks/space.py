@@ -119,7 +119,7 @@ class RankSpace:
     def sums(self, density: Array) -> Array:
         """Sums over the first axis."""
         mine = self.shares.mine(density)
-        return self.shares.summed(mine.reshape(len(mine), -1)).reshape(density.shape[1:])
+        return self.shares.summed(_columns(mine)).reshape(density.shape[1:])
 
     def totals(self, density: Array) -> Array:
         """Sums (parts,) over each solid; of one that is not there, zero."""
@@ -134,7 +134,7 @@ class RankSpace:
         where = self.shares.mine(mask)[:, :, None].astype(bool)
         columns = []
         for density in densities:
-            mine = self.shares.mine(density.reshape(len(density), -1))
+            mine = self.shares.mine(_columns(density))
             columns.append(np.where(where, mine[:, None, :], 0.0).transpose(0, 2, 1).reshape(-1, parts))
         return self.shares.summed(np.concatenate(columns, axis=1)).reshape(k, parts)
 
@@ -150,8 +150,8 @@ class RankSpace:
         """``a^T b`` over the first axis."""
         left, right = (self.shares.mine(np.asarray(x, float)) for x in (a, b))
         shape = a.shape[1:] + b.shape[1:]
-        pairs = left.reshape(len(left), -1, 1) * right.reshape(len(right), 1, -1)
-        return self.shares.summed(pairs.reshape(len(left), -1)).reshape(shape)
+        pairs = _columns(left)[:, :, None] * _columns(right)[:, None, :]
+        return self.shares.summed(_columns(pairs)).reshape(shape)
 
     def products_of(self, a: Array, vectors: Sequence[Array]) -> tuple[Array, ...]:
         """``a^T b`` of several vectors, in one message."""
@@ -187,3 +187,8 @@ class RankSpace:
         for weight, field in zip(weights[1:], fields[1:], strict=True):
             out = out + weight * field
         return out
+
+
+def _columns(values: Array) -> Array:
+    """Values (n, k) of an array (n, ...), also where n is zero."""
+    return values.reshape(len(values), int(np.prod(values.shape[1:])))

@@ -3,8 +3,10 @@
 import pytest
 
 import softway as sw
+from softway.bodies import Thermal
+from softway.bodies.elements.section import PlaneStress
 from softway.cluster.admitted import require_several
-from softway.model.build import build
+from softway.heat.coupled.build import build
 from softway.model.model import Model
 from softway.solve.operators import ConjugateGradients, Factored
 
@@ -29,7 +31,41 @@ def two(between: object) -> Model:
     return build(sw.Scene(bodies={"one": solid(), "other": other}, contacts=(sw.Contact(between=between),)))
 
 
+def heated(*loads: object, solid_of: dict[str, object] | None = None, **more: object) -> Model:
+    """Square with a temperature."""
+    given = {"law": sw.heat.Conduction(conductivity=1.0, capacity=1.0), "temperature": 300.0}
+    body = solid(thermal=Thermal(**{**given, **more}), **(solid_of or {}))
+    return build(sw.Scene(bodies={"one": body}, loads=loads))
+
+
+MELTING = sw.heat.Conduction(conductivity=1.0, capacity=1.0, latent=sw.heat.Latent(heat=10.0, melting=900.0))
+VARYING = sw.heat.Conduction(
+    conductivity=sw.heat.TemperatureTable(temperatures=(200.0, 400.0), values=(1.0, 2.0)), capacity=1.0
+)
+STIFFNESS = sw.heat.StiffnessTable(temperatures=(300.0, 500.0), values=(1.0, 0.8))
+PLASTIC = {"material": sw.J2(E=100.0, nu=0.3, yield_stress=1.0), "section": PlaneStress(thickness=1.0)}
 CASES = {
+    "melting": (
+        lambda: heated(law=MELTING),
+        "bodies.one.thermal.law: runs on one rank only: heat of melting",
+    ),
+    "varying conductivity": (
+        lambda: heated(law=VARYING),
+        "bodies: runs on one rank only: conductivities and capacities that depend on the temperature",
+    ),
+    "varying moduli": (
+        lambda: heated(stiffness=STIFFNESS),
+        "bodies.one.thermal.stiffness: runs on one rank only: moduli that depend on the temperature",
+    ),
+    "radiation": (
+        lambda: heated(sw.heat.Radiation(on="one.top", emissivity=0.5, ambient=300.0)),
+        "loads: runs on one rank only: radiation of a surface",
+    ),
+    "expansion with free faces": (
+        lambda: heated(expansion=1e-5, solid_of=PLASTIC),
+        "bodies.one.thermal.expansion: runs on one rank only: thermal expansion of a law with a history in a body with "
+        "free faces",
+    ),
     "creep": (
         lambda: model(material=sw.laws.NortonHoff(K=1.0, m=0.5)),
         "bodies.one.material: runs on one rank only: a material without elasticity, whose slabs Newton's method has to "

@@ -1,25 +1,18 @@
 """March over ranks of two bodies, with friction, histories and step control: the bits of any number of ranks."""
 
-from dataclasses import fields, replace
+from dataclasses import replace
 
 import numpy as np
 import pytest
+from over_ranks import GIVEN, over, require_equal, steps, told
 
 import softway as sw
-from softway.cluster.march import march_on
 from softway.laws.plasticity.rate_dependence import Perzyna
 from softway.marching.results.finding import FLAT_CELL, INVERTED
-from softway.marching.results.step import Step
-from softway.marching.state.march_state import MarchState, Settings
-from softway.marching.state.step_control import StepControl
 from softway.model.build import build
 from softway.model.model import Model
-from softway.model.time_weight import EndPeaks
 from softway.ranks.alone import Alone
-from softway.ranks.interface import Ranks
-from softway.ranks.threads import in_threads
 
-GIVEN = Settings(until=0.006, step=5e-4, weight=EndPeaks(), method=sw.FixedPoint(), control=StepControl())
 SOFT = sw.NeoHookean(E=1e4, nu=0.3)
 STIFF = sw.NeoHookean(E=3e4, nu=0.3)
 PLAIN = sw.meshes.Rectangle(size=(1.0, 0.6), cells=(3, 2), origin=(0.1, 0.62))
@@ -55,45 +48,6 @@ def thrown(
     if between is not None:
         contacts = (sw.Contact(between=between, friction=friction),)
     return build(sw.Scene(bodies={"block": block, "bed": bed, "floor": floor}, contacts=contacts))
-
-
-def told(step: Step) -> list[object]:
-    """Every number of a step, as bits."""
-    kinds = ("displacement", "velocity", "acceleration", "pressure", "traction", "sliding", "slip")
-    numbers = [value for kind in kinds for _, value in sorted(getattr(step.after, kind).items())]
-    numbers += [step.reactions[name] for name in sorted(step.reactions)]
-    for solid in step.march_state.state.start.states:
-        for state in () if solid is None else (solid, *solid.regions.values()):
-            numbers += [state.displacement, state.stress, state.stored, state.dissipated, *state.law.values()]
-            numbers.append(np.array([state.elastic]))
-    for kind in (step.certificate, step.ledger):
-        numbers += [np.asarray(getattr(kind, f.name), float).ravel() for f in fields(kind) if _numeric(kind, f.name)]
-    events = [(e.kind, e.contact, e.node, e.time, e.impulse) for e in step.events]
-    return [step.report.iterations, step.report.factorisations, events, *(x.tobytes() for x in numbers)]
-
-
-def _numeric(kind: object, name: str) -> bool:
-    """True for a number, or an array of numbers."""
-    return isinstance(getattr(kind, name), float | np.ndarray)
-
-
-def steps(ranks: Ranks, model: Model, given: Settings = GIVEN, state: MarchState | None = None) -> list[Step]:
-    """Steps of a march on rank 0; empty on the others."""
-    return [step for step in march_on(ranks, model, given, state) if step is not None]
-
-
-def over(size: int, model: Model, given: Settings = GIVEN, state: MarchState | None = None) -> list[Step]:
-    """Steps of a march over a number of threads."""
-    return in_threads(size, lambda ranks: steps(ranks, model, given, state))[0]
-
-
-def require_equal(model: Model, given: Settings = GIVEN) -> list[Step]:
-    """Steps on one rank, which have the bits of those on two, and on three from a state of two."""
-    one, two = steps(Alone(), model, given), over(2, model, given)
-    middle = len(one) // 2 + 1
-    assert [told(s) for s in two] == [told(s) for s in one]
-    assert [told(s) for s in over(3, model, given, two[middle].march_state)] == [told(s) for s in one[middle + 1 :]]
-    return one
 
 
 CASES = {
@@ -190,3 +144,30 @@ def test_a_cell_that_folds_is_told_as_on_one_process() -> None:
     assert {e.kind for e in one} & {FLAT_CELL, INVERTED}
     assert [(e.node, e.time, e.finding) for e in three] == [(e.node, e.time, e.finding) for e in one]
     assert [(e.kind, e.node) for e in one] == [(e.kind, e.node) for e in theirs if e.finding]
+
+
+@pytest.mark.slow
+def test_three_blocks_in_space_each_of_which_may_touch_each_move_as_on_one_process() -> None:
+    """Rows of edges that cross are redundant; no iterate of conjugate gradients may close dependent ones."""
+
+    def block(at: tuple[float, float, float], velocity: tuple[float, float, float]) -> sw.Solid:
+        mesh = sw.meshes.Box(size=(1.0, 0.8, 0.6), cells=(3, 3, 3), origin=at)
+        return sw.Solid(mesh=mesh, material=SOFT, density=1.0, velocity=sw.bodies.Uniform(value=velocity))
+
+    bodies = {
+        "bed": block((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),
+        "block": block((0.13, 0.17, 0.605), (0.5, 0.0, -5.0)),
+        "side": block((1.145, 0.3, 0.05), (-5.0, 0.0, 0.0)),
+    }
+    model = build(sw.Scene(bodies=bodies, contacts=(sw.Contact(between="all"),)))
+    given = replace(GIVEN, until=0.003)
+    ours, theirs = steps(Alone(), model, given), list(sw.march(model, until=0.003, step=5e-4))
+    assert [told(s) for s in over(2, model, given)] == [told(s) for s in ours]
+    plain = list(sw.march(model, until=0.003, step=5e-4, method=sw.FixedPoint(operator=sw.solve.ConjugateGradients())))
+    assert {e.kind for step in ours for e in step.events} >= {"touch"}
+    for mine, one, other in zip(ours, plain, theirs, strict=True):
+        assert abs(mine.certificate.energy_error) < 1e-11 * 20.0
+        for body in bodies:
+            assert mine.after.displacement[body] == pytest.approx(other.after.displacement[body], abs=1e-12)
+            assert mine.after.velocity[body] == pytest.approx(other.after.velocity[body], abs=1e-9)
+            assert one.after.velocity[body] == pytest.approx(other.after.velocity[body], abs=1e-9)

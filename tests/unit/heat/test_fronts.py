@@ -8,8 +8,8 @@ from scipy.special import erf
 import softway as sw
 from neumann import DENSITY, HEAT, MELTING, front, ice, neumann
 from softway.arrays import Array
+from softway.bodies.elements.front_cells import FrontCells
 from softway.heat.fronts.places import first_fronts, overflowed, passed
-from softway.heat.heat_model import FrontCells
 from softway.meshes.generators.shapes import interval, rectangle
 
 heat = sw.heat

@@ -1,5 +1,6 @@
 """The scenario that processes and one process run."""
 
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -59,9 +60,50 @@ checkpoints = { every = 0.0 }
 """
 
 
+HEAT = "thermal = { temperature = %g, law = { kind = 'Conduction', conductivity = 50.0, capacity = 5.0 } }"
+HOT = (
+    ROUGH.replace("velocity = ", f"{HEAT % 500.0}\nvelocity = ")
+    .replace("[bodies.floor]", f"{HEAT % 300.0}\n[bodies.floor]")
+    .replace("mu = 0.2 }", "mu = 0.2 }\nheat = { conductance = 100.0 }")
+    + """[[loads]]
+kind = "Convection"
+on = "block.top"
+coefficient = 30.0
+ambient = 290.0
+[[loads]]
+kind = "Temperature"
+on = "bed.left"
+value = 310.0
+"""
+)
+
+
+@pytest.fixture
+def hot(tmp_path: Path) -> Path:
+    """Scenario of the rough one with temperatures: a film, a prescribed temperature, and heat across the contact."""
+    out = tmp_path / "hot.toml"
+    out.write_text(HOT)
+    return out
+
+
 @pytest.fixture
 def rough(tmp_path: Path) -> Path:
     """Scenario of a plastic block thrown at a bed, both with friction."""
     out = tmp_path / "rough.toml"
     out.write_text(ROUGH)
     return out
+
+
+@pytest.fixture(scope="session")
+def kept(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str, Callable[[Path], object]], Path]:
+    """Folder of a name, made once by the first test that asks for it."""
+    found: dict[str, Path] = {}
+
+    def folder(name: str, make: Callable[[Path], object]) -> Path:
+        if name not in found:
+            out = tmp_path_factory.mktemp("kept") / name
+            make(out)
+            found[name] = out
+        return found[name]
+
+    return folder

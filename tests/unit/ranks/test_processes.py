@@ -4,7 +4,7 @@ import json
 import os
 import subprocess
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 import h5py
@@ -45,12 +45,24 @@ def records(folder: Path) -> dict[str, bytes]:
     return {**tables, **found}
 
 
-@pytest.mark.parametrize("count", [2, 4])
-def test_records_have_the_same_bits_on_one_rank_and_on_several(count: int, file: Path, tmp_path: Path) -> None:
-    one, several = tmp_path / "one", tmp_path / "several"
-    command(["run", str(file), "--quiet", "--ranks", "1", "--out", str(one)])
-    command(["run", str(file), "--quiet", "--ranks", str(count), "--out", str(several)])
-    assert records(one) == records(several)
+Kept = Callable[[str, Callable[[Path], object]], Path]
+
+
+def alone(kept: Kept, scenario: Path) -> Path:
+    """Run of a scenario on one rank."""
+    return kept(
+        scenario.stem, lambda out: command(["run", str(scenario), "--quiet", "--ranks", "1", "--out", str(out)])
+    )
+
+
+@pytest.mark.parametrize(("name", "count"), [("file", 2), ("hot", 2), ("rough", 2), ("rough", 4)])
+def test_records_have_the_same_bits_on_one_rank_and_on_several(
+    name: str, count: int, request: pytest.FixtureRequest, kept: Kept, tmp_path: Path
+) -> None:
+    """Also with friction, plasticity and two bodies, and with heat."""
+    scenario, several = request.getfixturevalue(name), tmp_path / "several"
+    command(["run", str(scenario), "--quiet", "--ranks", str(count), "--out", str(several)])
+    assert records(alone(kept, scenario)) == records(several)
     assert sw.Run(several).events
 
 
@@ -97,21 +109,14 @@ def test_more_ranks_than_cells_are_refused_once(file: Path) -> None:
     assert told.count("error ranks: 3 for 2 cells") == 1
 
 
-@pytest.mark.parametrize("count", [2, 4])
-def test_friction_plasticity_and_two_bodies_have_the_same_bits(count: int, rough: Path, tmp_path: Path) -> None:
-    one, several = tmp_path / "one", tmp_path / "several"
-    command(["run", str(rough), "--quiet", "--ranks", "1", "--out", str(one)])
-    command(["run", str(rough), "--quiet", "--ranks", str(count), "--out", str(several)])
-    assert records(one) == records(several)
-    assert sw.Run(several).events
-
-
-@pytest.mark.parametrize("count", [None, 3])
-def test_a_run_that_lost_a_rank_goes_on_with_the_same_bits(count: int | None, rough: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize(("name", "count"), [("hot", None), ("rough", 3)])
+def test_a_run_that_lost_a_rank_goes_on_with_the_same_bits(
+    name: str, count: int | None, request: pytest.FixtureRequest, kept: Kept, tmp_path: Path
+) -> None:
     """A run on two processes, of which one fails, continues on one or on three."""
-    whole, lost = tmp_path / "whole", tmp_path / "lost"
-    command(["run", str(rough), "--quiet", "--ranks", "1", "--out", str(whole)])
-    failing(tmp_path, rough, lost, slab=9)
+    scenario, lost = request.getfixturevalue(name), tmp_path / "lost"
+    whole = alone(kept, scenario)
+    failing(tmp_path, scenario, lost, slab=9)
     assert sw.Run(lost).provenance["ranks"] == 2
     command(["resume", str(lost), "--quiet", *([] if count is None else ["--ranks", str(count)])])
     assert records(whole) == records(lost)

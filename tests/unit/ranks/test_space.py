@@ -63,3 +63,11 @@ def test_nan_on_one_rank_is_nan_on_all() -> None:
 def test_other_arrays_than_those_of_the_rank_are_refused() -> None:
     with pytest.raises(ValueError, match="39 values, where this rank has 40"):
         in_threads(1, lambda ranks: space(ranks)[0].total(np.ones(N - 1)))
+
+
+def test_sums_over_nodes_of_which_a_rank_has_none() -> None:
+    def found(ranks: Threads) -> list[float]:
+        it, _ = space(ranks)
+        return it.among(np.zeros(it.shares.length, bool)).sums(np.zeros((0, 3))).tolist()
+
+    assert in_threads(2, found) == [[0.0] * 3] * 2

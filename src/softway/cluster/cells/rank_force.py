@@ -10,7 +10,6 @@ from typing import cast
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse import csc_array
 
 from softway.arrays import Array
 from softway.bodies.discretised import DiscreteSolid
@@ -29,8 +28,8 @@ from softway.ranks.space import totalled
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class RankForce:
-    """Force on the own nodes of a rank, zero on its copies of others; see
-    :class:`~softway.bodies.internal_force.body_force.BodyForce`.
+    """Force on the own nodes of a rank, zero on its copies of others: what a march over ranks asks of a
+    :class:`~softway.bodies.internal_force.body_force.BodyForce`, with :meth:`stored_rows` in place of a matrix.
 
     Parameters
     ----------
@@ -104,10 +103,6 @@ class RankForce:
     def slab_average(self, rule: SlabForce, u0: Array, u1: Array) -> Array | None:
         """Force (n, d) averaged along the chord [N]; None for rules without a chord."""
         return self._some(lambda piece: piece.slab_average(rule, u0, u1))
-
-    def tangent(self, u: Array) -> csc_array:
-        """Refused: no matrix is assembled over ranks."""
-        raise NotImplementedError("no matrix is assembled over ranks")
 
     def committed(self, u: Array) -> MaterialState | None:
         """Material state of the cells at the end of the slab; None for an elastic body."""

@@ -8,6 +8,7 @@ import numpy as np
 from softway.arrays import IntArray
 from softway.bodies.assembled.heated_nodes import heated_nodes
 from softway.bodies.assembled.material_states import scaled
+from softway.bodies.assembled.vector_space import LocalSpace
 from softway.bodies.conductor import Conductor, RigidThermal, Thermal, conduction_laws
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.setup.heat_loads import HeatLoad, place_of
@@ -113,7 +114,7 @@ def with_temperature(
     effusivity = {part.name: laws.effusivity(part.mesh, part.volume) for part, laws in pairs}
     equations = SolidTemperature(
         contacts=contact_exchange(model, nodes, effusivity, lumps), inert=model.inert,
-        model=heat, heated=nodes, parts=len(model.parts), part=model.part_of[nodes.number],
+        model=replace(heat, space=LocalSpace(_of_solids(model, nodes.number))), heated=nodes,
         moduli=Moduli(free=_free_strain(heat, thermals), curves=tuple(_curves(heat, thermals))),
         expansions=tuple(found), dissipations=tuple(spent), elastic=tuple(elastic), points=tuple(softened),
         glue=tuple(breaking_glue(model, nodes)), links=tuple(stops),
@@ -123,6 +124,12 @@ def with_temperature(
         start = equations.of_points(after_jumps(heat, known, 0.0))
         model = replace(model, parts=starting(model.parts, softened, start))
     return with_field(_scaled(model, equations), equations)
+
+
+def _of_solids(model: Model, heated: IntArray) -> tuple[slice, ...]:
+    """Places of the nodes of each solid among those with heat (k,), ascending."""
+    ends = ([part.nodes.start, part.nodes.stop] for part in model.parts)
+    return tuple(slice(*np.searchsorted(heated, two).tolist()) for two in ends)
 
 
 def _scaled(model: Model, equations: SolidTemperature) -> Model:

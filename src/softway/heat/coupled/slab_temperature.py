@@ -210,16 +210,20 @@ class SlabTemperature:
         mean = slab.first * self.time.strained.force(over, dim) + (1.0 - slab.first) * mean
         entropies = -moduli.slopes(after.temperature, after.share) * amounts
         initial = -moduli.slopes(before.temperature, before.share) * self.time.amounts
-        rub, gained = float(heat.sum()), self.time.contacts.entropy_of_tools(taken)
+        turned = result.turned + np.abs(entropies - initial).sum(axis=0)
+        contents = after.content + after.temperature * entropies.sum(axis=0)
+        columns = np.stack([heat, contents, self.given, result.produced, turned], axis=1)
+        rub, content, given, produced, passed = solids.model.space.sums(columns).tolist()
+        gained = self.time.contacts.entropy_of_tools(taken)
         account = HeatOfSlab(
-            content=float(after.content.sum() + (after.temperature * entropies).sum()),
+            content=content,
             brought=float(self.time.jumped.sum() + result.heats.sum() - through[self.time.contacts.with_tools].sum()),
-            received=float(lost.sum() + self.given.sum()) + rub,
+            received=float(lost.sum()) + given + rub,
             reversible=float(lost.sum()),
-            stored=self.spent - float(self.given.sum()),
-            produced=float(result.produced.sum()) + result.reservoirs + gained,
-            passed=float(result.turned.sum() + np.abs(entropies - initial).sum()) + gained,
-            rounding=result.rounding / float(after.temperature.min()),
+            stored=self.spent - given,
+            produced=produced + result.reservoirs + gained,
+            passed=passed + gained,
+            rounding=result.rounding / solids.model.space.least(after.temperature),
             rubbed=rub,
             through=through + taken,
             liquid=liquid_volumes(solids.model, after),
@@ -262,7 +266,7 @@ class SlabTemperature:
     ) -> StageResult:
         """Result of a slab: by a kernel where it has one stage in which hardly any heat flows from node to node."""
         before, halves = self.time.before, self.time.halves
-        if is_weak(factor) and not (halves or strain.moduli.curves or strain.flow is not None):
+        if model.whole and is_weak(factor) and not (halves or strain.moduli.curves or strain.flow is not None):
             floor = rounding(model, before, stage)
             found = balanced_heats(model, before, stage, strain, before.unknowns if guess is None else guess, floor)
             if found is not None:

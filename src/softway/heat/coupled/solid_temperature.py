@@ -37,10 +37,8 @@ class SolidTemperature:
     ----------
     model
         Conduction in the solids with heat, of k nodes, and in r rigid bodies, its last nodes.
-    heated, parts
-        The k nodes among the n nodes of all solids, and the number of these.
-    part
-        (k,) number of the solid of each node.
+    heated
+        The k nodes among the n nodes of all solids.
     moduli
         Potentials of the strain of the k + r nodes.
     expansions
@@ -67,8 +65,6 @@ class SolidTemperature:
 
     model: HeatModel
     heated: HeatedNodes
-    parts: int
-    part: IntArray
     moduli: Moduli
     expansions: tuple[Expansion, ...]
     contacts: ContactExchange
@@ -199,11 +195,12 @@ class SolidTemperature:
         end = deformed(self.expansions, self.elastic, slab.u1, after)
         change = self.of_nodes(end.amounts()) - self.time.amounts
         flow = end.strained.flow(self.time.strained.strained, slab.span)
-        out, spent = np.zeros(self.heated.count), 0.0
+        out, energies = np.zeros((2, self.heated.count))
         for dissipation in self.dissipations:
             energy = dissipation.energy(before, after)
             out[dissipation.nodes] += dissipation.share * energy
-            spent += float(energy.sum())
+            energies[dissipation.nodes] += energy
+        spent = self.model.space.total(self.of_nodes(energies)) if self.dissipations else 0.0
         glue = tuple(one.in_slab(self.time.damage, slab.u1) for one in self.glue if self.time.damage is not None)
         out, spent = out + sum(one.heat for one in glue), spent + sum(float(one.heat.sum()) for one in glue)
         return SlabTemperature(
@@ -276,8 +273,7 @@ class SolidTemperature:
 
     def of_parts(self, values: Array) -> Array:
         """Sums (parts,) over the nodes of each solid of values (k + r,)."""
-        own = values[: len(self.nodes)]
-        return np.asarray(np.bincount(self.part, weights=own, minlength=self.parts), float)
+        return self.model.space.totals(values)
 
     def of_nodes(self, values: Array) -> Array:
         """Values (..., k + r) at the nodes with heat from those (..., n) of all nodes; zero of rigid bodies."""

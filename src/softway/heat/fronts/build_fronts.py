@@ -7,8 +7,9 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.bodies.conductor import Conductor, conduction_laws
+from softway.bodies.elements.front_cells import FrontCells, Phases
 from softway.errors import InputError, within
-from softway.heat.heat_model import FrontCells, HeatModel, HeatPart, Phases
+from softway.heat.heat_model import HeatModel, HeatPart
 from softway.laws.heat.conduction import Conduction
 from softway.laws.heat.heat_content import content_curve
 from softway.laws.heat.temperature_table import TemperatureTable

@@ -7,11 +7,11 @@ from functools import cached_property
 import numpy as np
 
 from softway.arrays import Array, IntArray
+from softway.bodies.elements.front_cells import FrontCells
 from softway.errors import NoConvergence
 from softway.heat.fronts.held_fronts import Held, HeldFronts
 from softway.heat.fronts.places import CROSSED, Fronts
 from softway.heat.heat_balance import Stage, prescribed
-from softway.heat.heat_model import FrontCells
 from softway.heat.operators import heat_values
 
 SWEEPS = 60

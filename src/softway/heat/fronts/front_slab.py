@@ -5,12 +5,13 @@ from dataclasses import replace
 import numpy as np
 
 from softway.arrays import Array
+from softway.bodies.elements.front_cells import FrontCells
 from softway.errors import NoConvergence, NumericsError
 from softway.heat.fronts.events import SAME, FrontEvent, Piece, Search, pocket_after, slight_heats, standing_at
 from softway.heat.fronts.held_fronts import held_fronts
 from softway.heat.fronts.places import Fronts, content_of_phases, emptied, handed_on, overflowed, passed, standing
 from softway.heat.heat_balance import Stage
-from softway.heat.heat_model import FrontCells, HeatModel
+from softway.heat.heat_model import HeatModel
 from softway.heat.heat_slab import StageResult
 from softway.heat.operators import HeatValues, heat_values
 

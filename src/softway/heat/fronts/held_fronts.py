@@ -11,11 +11,12 @@ import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array
+from softway.bodies.elements.front_cells import FrontCells
 from softway.bodies.setup.heat_loads import Radiation, Temperature
 from softway.heat.fronts.places import Fronts
 from softway.heat.heat_balance import Stage
 from softway.heat.heat_contact import HeatExchange
-from softway.heat.heat_model import FrontCells, HeatCells, HeatModel
+from softway.heat.heat_model import HeatCells, HeatModel
 from softway.heat.heat_slab import StageResult, solve_stage
 from softway.heat.operators import HeatValues, heat_values
 from softway.kernels.assembly.assembler import assembler

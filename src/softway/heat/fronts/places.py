@@ -11,8 +11,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
+from softway.bodies.elements.front_cells import FrontCells
 from softway.errors import NoConvergence
-from softway.heat.heat_model import FrontCells, HeatModel
+from softway.heat.heat_model import HeatModel
 from softway.heat.operators import HeatValues
 
 CROSSED = 1e-12

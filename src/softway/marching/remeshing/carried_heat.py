@@ -200,7 +200,8 @@ def with_content(model: Model, unknowns: Array, before: HeatOfState, after: Heat
     gap = before.contents - after.contents
     shift = np.divide(gap, after.capacities, out=np.zeros_like(gap), where=after.capacities > 0.0)
     out = unknowns.copy()
-    out[: len(found[1].part)] += shift[found[1].part]
+    nodes = found[1].nodes
+    out[: len(nodes)] += shift[model.part_of[nodes]]
     return out
 
 

@@ -1,5 +1,6 @@
 """Contact by elimination: active sets of rows without friction, whose closed rows conjugate gradients respect."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,6 +12,7 @@ from softway.solve.constraints.normal_active_set import RowConditions
 from softway.solve.constraints.row_basis import RowCoefficients, UnitRows
 from softway.solve.effort import Effort
 from softway.solve.elimination.closed_rows import ClosedRows, row_matrix
+from softway.solve.elimination.redundant_rows import LocalContact
 from softway.solve.linear.conjugate_gradients import Descending
 from softway.solve.linear.interface import Factor
 
@@ -55,13 +57,13 @@ class Elimination:
     """Elimination of closed rows for the iterations of one slab.
 
     It keeps the rows of the last iteration with their factor, which serve again while the active set stays and the rows
-    do not turn.
+    do not turn.  Rows may depend on each other where they are ``redundant``.
     """
 
-    __slots__ = ("closed", "gradients", "key", "known", "local", "matrix")
+    __slots__ = ("closed", "gradients", "key", "known", "local", "matrix", "redundant")
 
-    def __init__(self, gradients: Descending, local: Factor) -> None:
-        self.gradients, self.local = gradients, local
+    def __init__(self, gradients: Descending, local: Factor, redundant: bool = False) -> None:
+        self.gradients, self.local, self.redundant = gradients, local, redundant
         self.closed: ClosedRows | None = None
         self.key, self.known, self.matrix = b"", b"", sp.csr_array((0, 0))
 
@@ -133,12 +135,17 @@ def normal_sweeps(
 ) -> Swept:
     """Step with normal contact: rows with a tension are opened and rows with an overlap are closed, at most ``SWEEPS``
     times.
+
+    Of redundant rows those are closed that press in the step against the nodal blocks alone.
     """
     moved = np.diff(equations.matrix.indptr) > 0
     active = (rows.equal | (guess & rows.unilateral)) & moved
     slack = np.where(rows.unilateral & moved, equations.matrix @ equations.y - rows.target, 0.0)
     floor = rows.missable(slack)
     answer: Answer | None = None
+    alone = _alone(elimination, equations, rows.unilateral & moved, floor) if elimination.redundant else None
+    if alone is not None and not rows.equal.any():
+        active = alone(slack, equations.residual, active.astype(float))
     for sweep in range(SWEEPS):
         index = np.flatnonzero(active)
         effort.step(f"contact of {len(active)} rows, {len(index)} active, exchange {sweep}")
@@ -152,9 +159,26 @@ def normal_sweeps(
         wrong = rows.unilateral & moved & (lifted | (~active & (gap < -floor)))
         if not wrong.any():
             return Swept(answer.d, _pressing(rows, multiplier), active, settled=True)
-        active = active ^ wrong
+        if alone is None or rows.equal.any():
+            active = active ^ wrong
+        else:
+            active = alone(gap, equations.residual + answer.Ad, multiplier)
     assert answer is not None
     return Swept(answer.d, _pressing(rows, multiplier), active, settled=False)
+
+
+def _alone(
+    elimination: Elimination, equations: Equations, rows: BoolArray, floor: float
+) -> Callable[[Array, Array, Array], BoolArray]:
+    """Rows (m,) to close where ``rows`` (m,) may, from gaps (m,), the residual (f,) and forces (m,) to begin with."""
+    lifted = sp.csr_array(elimination.local.solve(sp.csc_array(equations.matrix.T)))
+    contact = LocalContact(sp.csr_array(equations.matrix @ lifted), rows, floor)
+    pulled = sp.csr_array(lifted.T)
+
+    def closed(gap: Array, residual: Array, force: Array) -> BoolArray:
+        return contact.pressing(gap - pulled @ residual, force)
+
+    return closed
 
 
 def _pressing(rows: RowConditions, multiplier: Array) -> Array:

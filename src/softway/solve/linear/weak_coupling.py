@@ -1,11 +1,12 @@
-"""Matrices whose unknowns are weakly coupled: conjugate gradients in place of a factor."""
+"""Matrices whose unknowns are weakly coupled, or on several ranks: conjugate gradients in place of a factor."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
 
 from softway.arrays import Array
+from softway.bodies.assembled.vector_space import LocalSpace, VectorSpace
 from softway.solve.linear.interface import Factor, LinearSolver
 
 WEAK = 0.5
@@ -15,6 +16,9 @@ ACCURATE = 1e-15
 """Residual of a solution, relative to the right-hand side."""
 LIMIT = 60
 """Greatest number of iterations."""
+LONG = 2000
+"""The same where the unknowns are not weakly coupled, and on several ranks."""
+ONE = LocalSpace(())
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -37,7 +41,7 @@ class Links:
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class WeaklyCoupled:
+class DiagonalGradients:
     """Symmetric matrix (f, f) with a great diagonal, as that of heat in the short slabs of an impact.
 
     Parameters
@@ -48,6 +52,10 @@ class WeaklyCoupled:
         (f,) its diagonal, and sums of the magnitudes beside it.
     links
         Further links of its unknowns.
+    weak
+        True if the unknowns are weakly coupled.
+    space
+        Sums over the unknowns, of which rows of other ranks are empty.
 
     Examples
     --------
@@ -60,6 +68,8 @@ class WeaklyCoupled:
     diagonal: Array
     beside: Array
     links: Links | None = None
+    weak: bool = True
+    space: VectorSpace = ONE
 
     @property
     def bytes(self) -> int:
@@ -71,29 +81,30 @@ class WeaklyCoupled:
         """False: the diagonal is positive and great."""
         return False
 
-    def linked(self, links: Links) -> "WeaklyCoupled | None":
-        """Sum with the matrix of some ``links``; None if its unknowns are not weakly coupled."""
+    def linked(self, links: Links) -> "DiagonalGradients | None":
+        """Sum with the matrix of some ``links``; None in one process if its unknowns are not weakly coupled."""
         own = links.diagonal
         diagonal, beside = self.diagonal + own, self.beside + links.sums - own
-        if (beside > WEAK * diagonal).any():
+        weak = self.space.every(beside <= WEAK * diagonal)
+        if not weak and isinstance(self.space, LocalSpace):
             return None
-        return WeaklyCoupled(matrix=self.matrix, diagonal=diagonal, beside=beside, links=links)
+        return replace(self, diagonal=diagonal, beside=beside, links=links, weak=weak)
 
     def solve(self, b: Array) -> Array:
         """Solution of A x = b for b (f,), up to rounding, by conjugate gradients."""
-        x, r = np.zeros_like(b), b.copy()
-        goal = ACCURATE * float(np.linalg.norm(b))
+        space, x, r = self.space, np.zeros_like(b), self.space.filled(b.copy())
+        goal = ACCURATE * space.norm(b)
         z = r / self.diagonal
-        p, rho = z, float(r @ z)
-        for _ in range(LIMIT):
-            if float(np.linalg.norm(r)) <= goal:
+        p, rho = z, space.dot(r, z)
+        for _ in range(LIMIT if self.weak else LONG):
+            if space.norm(r) <= goal:
                 break
             q = self._product(p)
-            alpha = rho / float(p @ q)
+            alpha = rho / space.dot(p, q)
             x += alpha * p
             r -= alpha * q
             z = r / self.diagonal
-            last, rho = rho, float(r @ z)
+            last, rho = rho, space.dot(r, z)
             p = z + (rho / last) * p
         return x
 
@@ -102,13 +113,17 @@ class WeaklyCoupled:
         out = self.matrix @ x
         if self.links is not None:
             out += self.links.back @ (self.links.weights * (self.links.jump @ x))
-        return np.asarray(out)
+        return self.space.filled(np.asarray(out))
 
 
-def factor_unless_weak(matrix: sp.csc_array, linear: LinearSolver) -> Factor:
-    """Factor of a symmetric matrix (f, f), or conjugate gradients if its unknowns are weakly coupled."""
-    diagonal = matrix.diagonal()
-    beside = np.asarray(abs(matrix).sum(axis=1)).ravel() - np.abs(diagonal)
-    if diagonal.min(initial=np.inf) > 0.0 and (beside <= WEAK * diagonal).all():
-        return WeaklyCoupled(matrix=sp.csr_array(matrix), diagonal=diagonal, beside=beside)
+def factor_unless_weak(matrix: sp.csc_array, linear: LinearSolver, space: VectorSpace = ONE) -> Factor:
+    """Factor of a symmetric matrix (f, f), or conjugate gradients if its unknowns are weakly coupled.
+
+    On several ranks, whose ``space`` knows the rows of each, there are conjugate gradients alone.
+    """
+    diagonal = space.filled(matrix.diagonal())
+    beside = np.asarray(abs(matrix).sum(axis=1)).ravel() - np.abs(matrix.diagonal())
+    weak = space.least(diagonal) > 0.0 and space.every(beside <= WEAK * diagonal)
+    if weak or not isinstance(space, LocalSpace):
+        return DiagonalGradients(matrix=sp.csr_array(matrix), diagonal=diagonal, beside=beside, weak=weak, space=space)
     return linear.factor(matrix)

@@ -17,9 +17,10 @@ Steps = Callable[[SlabEquations, FrozenOperator, Array, Evaluation, Array, BoolA
 
 
 def eliminated(system: SlabEquations, frozen: FrozenOperator) -> bool:
-    """True if closed rows are eliminated: by iterative operators, unless rows of crossing edges are redundant."""
+    """True if closed rows are eliminated: by iterative operators, but for friction on the rows of crossing edges."""
     iterative = isinstance(frozen.factor, Descending) and frozen.local is not None
-    return iterative and not system.model.contacts.crossing_edges
+    redundant = system.model.contacts.crossing_edges
+    return iterative and not (redundant and not system.contact.conditions.slipping.frictionless)
 
 
 def pushed_exactly(system: SlabEquations, frozen: FrozenOperator) -> bool:
@@ -32,7 +33,7 @@ def contact_steps(system: SlabEquations, frozen: FrozenOperator) -> Steps:
     if not eliminated(system, frozen):
         return contact_step
     assert isinstance(frozen.factor, Descending) and frozen.local is not None
-    elimination = Elimination(frozen.factor, frozen.local)
+    elimination = Elimination(frozen.factor, frozen.local, system.model.contacts.crossing_edges)
 
     def step(
         system: SlabEquations, frozen: FrozenOperator, q: Array, end: Evaluation, impulse: Array, active: BoolArray
