@@ -21,11 +21,13 @@ _KERNEL = _EXACT | {"nogil": True, "no_cfunc_wrapper": True}
 _PART = _EXACT | {"forceinline": True, "no_cfunc_wrapper": True, "no_cpython_wrapper": True}
 # Numba counts references to arrays by atomic operations, which take longer than a slab of a small mechanism.
 _UNCOUNTED: dict[str, Any] = {"_nrt": False}
+_PART_ASKED = types.int64(types.CPointer(types.int64), types.int64)
 _POINT = types.void(types.CPointer(types.float64), types.CPointer(types.float64))
 _SHARED = (
     "jit/by_address.py",
     "jit/compilation.py",
     "jit/elementary.py",
+    "jit/hooks.py",
     "jit/lanes.py",
     "jit/simd.py",
     "fused/history_stages.py",
@@ -60,6 +62,7 @@ _SHARED = (
     "pile/sweeps.py",
     "pile/tables.py",
     "pile/through.py",
+    "slab/apart.py",
     "slab/audit.py",
     "slab/products.py",
     "slab/tables.py",
@@ -75,6 +78,13 @@ _ENDING = f"_{sha256(_SOURCES).hexdigest()[:12]}"
 def stage(function: Callable[..., None]) -> Stage:
     """Compile a stage, which kernels call by its address, and cache it on disk."""
     return _kept(lambda **options: cfunc(_POINT, **options), function, _EXACT)
+
+
+def asked(function: Callable[..., int]) -> Any:
+    """Compile an optional part of kernels, which they :func:`~softway.kernels.jit.hooks.ask` by its address, and cache
+    it on disk.
+    """
+    return _kept(lambda **options: cfunc(_PART_ASKED, **options), function, _EXACT | _UNCOUNTED)
 
 
 def kernel(function: Callable[..., Any]) -> Callable[..., Any]:

@@ -15,7 +15,7 @@ from softway.marching.results.tie_breaks import tie_breaks
 from softway.marching.results.trying import TryWatch
 from softway.marching.rules.declared import slab_rule
 from softway.marching.rules.slab_rule import Attempt, Method, SlabRule
-from softway.marching.slab.with_rigid import coupled_slabs
+from softway.marching.slab.rigid.with_rigid import coupled_slabs
 from softway.marching.state.model_state import ModelState
 from softway.mechanisms.members.stops import StopEvent
 from softway.model.field import in_slab

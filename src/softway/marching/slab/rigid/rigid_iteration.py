@@ -9,8 +9,8 @@ import numpy as np
 from softway.arrays import Array
 from softway.bodies.rigid_motion import RigidMotion
 from softway.marching.results.slab_result import SlabResult
-from softway.marching.slab.carried_motion import CarriedMotion, Response
-from softway.marching.slab.rigid_forces import carriers, forces_on_rigid
+from softway.marching.slab.rigid.carried_motion import CarriedMotion, Response
+from softway.marching.slab.rigid.rigid_forces import carriers, forces_on_rigid
 from softway.marching.state.model_state import ModelState
 from softway.model.field import StopsInSlab
 from softway.model.model import Model

@@ -15,7 +15,7 @@ import numpy as np
 from softway.errors import NoConvergence
 from softway.marching.results.slab_result import SlabResult
 from softway.marching.rules.slab_rule import Attempt, SlabRule
-from softway.marching.slab.rigid_iteration import AGREES, PATIENCE, RigidIteration
+from softway.marching.slab.rigid.rigid_iteration import AGREES, PATIENCE, RigidIteration
 from softway.marching.state.model_state import ModelState
 from softway.mechanisms.members.stops import StopEvent
 from softway.model.field import feel_stops, with_stops

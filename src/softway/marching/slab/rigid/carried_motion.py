@@ -12,7 +12,7 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.bodies.rigid_motion import CarriedNodes, RigidMotion
-from softway.marching.slab.rigid_forces import carried_nodes, carriers, fields, forces_on_carriers
+from softway.marching.slab.rigid.rigid_forces import carried_nodes, carriers, fields, forces_on_carriers
 from softway.model.model import Model
 from softway.solve.constraints.compliance import FrozenOperator
 from softway.solve.equations.slab_values import Evaluation
