@@ -8,6 +8,7 @@ that is not zero, or a balance within half its limit.  So both take the same dec
 import numpy as np
 
 from softway.kernels.jit.compilation import called, uncounted_kernel
+from softway.kernels.jit.hooks import ask
 from softway.kernels.multibody.band import factor_band, solve_band
 from softway.kernels.slab.audit import audited, closes
 from softway.kernels.slab.products import along, elastic, extent, greatest, momenta
@@ -28,6 +29,8 @@ LEAST = 1e-9
 """Force of a row, relative to the greatest one, above which it stays closed."""
 CLOSE = 1e-14
 """Difference of velocities, relative to them, that is rounding."""
+ALLOWS = 0
+"""Places of the optional parts."""
 UNIT = 0.5
 """Second moment of the end peaks: the part of the slab in which a force at its end acts."""
 
@@ -57,10 +60,11 @@ def answer(bodies_place, rows_place, r, lower, pivot, x, out):
 
 
 @uncounted_kernel
-def slabs(places, tolerance, account, wanted):
+def slabs(places, parts, tolerance, account, wanted):
     """Compute up to ``wanted`` slabs from the first state of a course, and return how many were computed.
 
-    ``places`` (5,) are the addresses of the tables of bodies, rows, operator, course and work.
+    ``places`` (5,) are the addresses of the tables of bodies, rows, operator, course and work, and further ones of
+    optional ``parts`` (1,): the address of a part that allows a solved slab, or zero.
     ``account`` (2,) are energy at the start of the march and external work, ``tolerance`` that of the iteration.
     """
     bodies, rows, operator = bodies_at(places[0]), rows_at(places[1]), operator_at(places[2])
@@ -70,6 +74,8 @@ def slabs(places, tolerance, account, wanted):
         if not _slab(bodies, rows, operator, course, work, tolerance, s):
             return s
         if not audited(bodies, rows, course, work, account, s):
+            return s
+        if parts[ALLOWS] != 0 and ask(parts[ALLOWS], places, s) == 0:
             return s
         for c in range(len(work.q)):
             work.before[c] = work.after[c]

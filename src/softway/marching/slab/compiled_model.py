@@ -13,9 +13,11 @@ from softway.bodies.elements.section import Axisymmetric
 from softway.bodies.internal_force.elastic.elastic_force import ElasticForce
 from softway.bodies.internal_force.slab_average import Weighted
 from softway.kernels.jit.by_address import packed
+from softway.kernels.slab.apart import Surfaces
 from softway.kernels.slab.march import answer, factor
 from softway.kernels.slab.tables import Bodies, Operator, Rows
 from softway.marching.rules.equilibrated import EndForceContact, Equilibrated
+from softway.marching.slab.rows.apart import may_stay_apart, surfaces_of
 from softway.marching.slab.slab_step import Stepper
 from softway.marching.state.march_state import Settings
 from softway.marching.state.step_control import SMALL_STRAIN
@@ -39,7 +41,7 @@ INVERTED = 1e-6
 class CompiledModel:
     """Arrays of a model for slabs of the length ``span`` [s]; ``lower`` and ``pivot`` are the factor of their operator.
 
-    ``operators`` keeps that of the last closed rows; it depends on these rows only.
+    ``surfaces`` are those of solids that may touch each other; ``operators`` keeps that of the last closed rows; it depends on these rows only.
     """
 
     model: Model
@@ -49,6 +51,7 @@ class CompiledModel:
     lower: Array
     pivot: Array
     tolerance: float
+    surfaces: Surfaces | None
     operators: dict[bytes, Operator | None] = field(default_factory=dict)
 
     def operator(self, closed: BoolArray) -> Operator | None:
@@ -100,7 +103,8 @@ def _fixed(model: Model) -> bool:
     alone = not (model.companions or model.driven or model.adapted) and model.rigid is None
     plain = isinstance(model.dofs, NodalDofs) and isinstance(model.space, LocalSpace)
     still = model.loads.steady and np.array_equal(model.load, model.load_before) and model.inert
-    met = model.contacts.fixed and model.friction.frictionless and model.contacts.clearance is None
+    known = model.contacts.known_rows is not None and may_stay_apart(model.contacts)
+    met = known and model.friction.frictionless and model.contacts.clearance is None
     return bool(alone and plain and still and met and model.linear)
 
 
@@ -136,7 +140,14 @@ def compiled_model(stepper: Stepper, settings: Settings, span: float) -> Compile
     assert isinstance(stepper.method, FixedPoint)
     tolerance = stepper.method.tolerance
     return CompiledModel(
-        model=model, bodies=bodies, rows=rows, span=span, lower=lower, pivot=pivot, tolerance=tolerance
+        model=model,
+        bodies=bodies,
+        rows=rows,
+        span=span,
+        lower=lower,
+        pivot=pivot,
+        tolerance=tolerance,
+        surfaces=surfaces_of(model.contacts),
     )
 
 
@@ -179,7 +190,8 @@ def _bodies(model: Model, place: IntArray) -> Bodies | None:
 
 def _rows(model: Model, settings: Settings) -> Rows:
     """Arrays of the contact rows."""
-    rows = model.contacts.rest(np.zeros(model.shape), 0.0).start(np.zeros(model.shape))
+    rows = model.contacts.known_rows
+    assert rows is not None
     gradient = sp.csr_array(rows.gradient)
     return Rows(
         start=_whole(gradient.indptr),

@@ -4,6 +4,7 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.kernels.jit.by_address import packed
+from softway.kernels.slab.apart import apart
 from softway.kernels.slab.march import slabs
 from softway.kernels.slab.tables import ITERATIONS, MET, SUMS, Course, Work
 from softway.kernels.slab.works import WORKS
@@ -31,7 +32,9 @@ def next_batch(
     now, history, model = march_state.state, march_state.step_history, compiled.model
     steady = history.length == history.span == compiled.span and not (history.halted or history.energy_along_motion)
     known = memory.origin is not None and not memory.stale and memory.serves(compiled.span)
-    if not (steady and known and max(memory.taken.last, default=0) <= USUAL * WORN) or now.rows is not None:
+    if not (steady and known and max(memory.taken.last, default=0) <= USUAL * WORN):
+        return None
+    if now.rows is not None and (model.contacts.known is None or now.pressure[~model.contacts.known].any()):
         return None
     operator = compiled.operator(now.pressure > 0.0)
     left = (march_state.settings.until - now.time) / compiled.span - AHEAD
@@ -43,9 +46,12 @@ def next_batch(
     start = account.energy_start - account.dissipation - account.remeshing
     told = np.array([start, account.work_external, account.energy_error])
     work = _work(compiled)
-    tables = [packed(each) for each in (compiled.bodies, compiled.rows, operator, course, work)]
+    surfaces = compiled.surfaces
+    given = (compiled.bodies, compiled.rows, operator, course, work, *(() if surfaces is None else (surfaces,)))
+    tables = [packed(each) for each in given]
     places = np.array([each.ctypes.data for each in tables])
-    count = slabs(places, compiled.tolerance, told, wanted)
+    parts = np.array([0 if surfaces is None else apart().address])
+    count = slabs(places, parts, compiled.tolerance, told, wanted)
     if not count:
         return None
     iterations = tuple(int(i) for i in course.sums[:count, ITERATIONS].tolist())
@@ -56,7 +62,7 @@ def next_batch(
         course=course,
         iterations=iterations,
         contractions=contractions(course.sums[:count], iterations),
-        pairs=model.contacts.rest(model.displacement, 0.0).found,
+        pairs=int(np.isfinite(compiled.rows.offset).sum()),
         scalars={part.name: 0.0 for part in model.parts},
         states={0: before},
     )

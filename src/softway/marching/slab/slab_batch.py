@@ -95,6 +95,7 @@ class SlabBatch:
             pressure=course.pressure[count],
             traction=np.zeros_like(first.traction),
             sliding=np.zeros_like(first.sliding),
+            rows=self.model.contacts.known_rows if self.model.contacts.paired else None,
             span=float(course.time[count] - course.time[count - 1]),
         )
 
