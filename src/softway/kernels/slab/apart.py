@@ -3,8 +3,10 @@
 from functools import cache
 from typing import Any, NamedTuple
 
-from softway.arrays import Array, IntArray
-from softway.kernels.jit.by_address import NUMBERS, ROWS, WHOLES, table
+import numpy as np
+
+from softway.arrays import Array, BoolArray, IntArray
+from softway.kernels.jit.by_address import FLAGS, NUMBERS, ROWS, WHOLES, table
 from softway.kernels.jit.compilation import asked, called
 from softway.kernels.slab.tables import bodies_at, course_at
 
@@ -18,7 +20,8 @@ class Surfaces(NamedTuple):
     relative to that of the nodes, ``magnified`` (k,).
 
     ``one`` and ``other`` (p,) are pairs that may touch, with the ``distance`` (p,) of the search in a slab, of which
-    ``raised`` (p,) is that at which they touch [m].  Work space are middles and motions of the boxes ``centre`` and
+    ``raised`` (p,) is that at which they touch [m].  Pairs that are ``near`` (p,) have a row: they certainly stay within
+    the distance, all others beyond it.  Work space are middles and motions of the boxes ``centre`` and
     ``shift`` (k, d), their ``half`` widths (k, d), the ``spread`` (d,) of the motions, and how far the nodes ``strayed``
     (k,) from the expected end.
     """
@@ -31,6 +34,7 @@ class Surfaces(NamedTuple):
     other: IntArray
     distance: Array
     raised: Array
+    near: BoolArray
     centre: Array
     shift: Array
     half: Array
@@ -48,6 +52,7 @@ surfaces_at = table(
     other=WHOLES,
     distance=NUMBERS,
     raised=NUMBERS,
+    near=FLAGS,
     centre=ROWS,
     shift=ROWS,
     half=ROWS,
@@ -59,7 +64,7 @@ surfaces_at = table(
 
 @cache
 def apart() -> Any:
-    """Part that allows slabs in which no surfaces come near each other; their table follows those of the bodies."""
+    """Part that allows slabs in which no surfaces come near each other, and none of those near go away; their table follows those of the bodies."""
     return asked(_apart)
 
 
@@ -69,9 +74,10 @@ def _apart(places, s):
 
 @called
 def stay_apart(bodies, course, surfaces, s):
-    """True if the search of the slab certainly finds no pairs.
+    """True if the search of the slab certainly finds no pairs but those that are near.
 
-    It looks within ``distance`` of the way to the expected end, and its result holds if the end is near that.
+    It looks within ``distance`` of the way to the expected end.  If the end is farther than that from the expected one,
+    it looks again, within twice the distance that was needed.
     """
     h = course.time[s + 1] - course.time[s]
     for k in range(len(surfaces.start) - 1):
@@ -81,28 +87,37 @@ def stay_apart(bodies, course, surfaces, s):
         for k in range(1, len(surfaces.start) - 1):
             low, high = min(low, surfaces.shift[k, i]), max(high, surfaces.shift[k, i])
         surfaces.spread[i] = high - low
+    needed = 0.0
     for p in range(len(surfaces.one)):
         a, b = surfaces.one[p], surfaces.other[p]
         strayed = surfaces.magnified[a] * surfaces.strayed[a] + surfaces.magnified[b] * surfaces.strayed[b]
-        if not strayed <= SURE * (surfaces.distance[p] - surfaces.raised[p]):
+        needed = max(needed, surfaces.raised[p] + strayed)
+    for p in range(len(surfaces.one)):
+        distance = max(surfaces.distance[p], 2.0 * needed) / SURE
+        if not (_close(surfaces, p) if surfaces.near[p] else _beside(bodies, surfaces, p, distance)):
             return False
-        if not _beside(bodies, surfaces, p):
-            return False
-    return True
+    return needed < np.inf
 
 
 @called
-def _beside(bodies, surfaces, p):
-    """True if the boxes of a pair stay away from each other in one direction, by twice the distance of the search.
+def _beside(bodies, surfaces, p, distance):
+    """True if the boxes of a pair stay away from each other in one direction, by a distance.
 
     The search adds motions relative to a mean one, which are at most the spread of all motions.
     """
     a, b = surfaces.one[p], surfaces.other[p]
     for i in range(bodies.dimension):
         wide = surfaces.half[a, i] + surfaces.half[b, i] + surfaces.spread[i]
-        if abs(surfaces.centre[a, i] - surfaces.centre[b, i]) > wide + surfaces.distance[p] / SURE:
+        if abs(surfaces.centre[a, i] - surfaces.centre[b, i]) > wide + distance:
             return True
     return False
+
+
+@called
+def _close(surfaces, p):
+    """True if a pair of ends of bars is within half the distance of the search."""
+    a, b = surfaces.one[p], surfaces.other[p]
+    return abs(surfaces.centre[a, 0] - surfaces.centre[b, 0]) <= SURE * surfaces.distance[p]
 
 
 @called

@@ -12,17 +12,20 @@ from softway.bodies.dof_map import NodalDofs
 from softway.bodies.elements.section import Axisymmetric
 from softway.bodies.internal_force.elastic.elastic_force import ElasticForce
 from softway.bodies.internal_force.slab_average import Weighted
+from softway.contact.contact_rows import ContactRows
 from softway.kernels.jit.by_address import packed
 from softway.kernels.slab.apart import Surfaces
 from softway.kernels.slab.march import answer, factor
 from softway.kernels.slab.tables import Bodies, Operator, Rows
 from softway.marching.rules.equilibrated import EndForceContact, Equilibrated
-from softway.marching.slab.rows.apart import may_stay_apart, surfaces_of
+from softway.marching.slab.rows.apart import MetSurfaces, may_stay_apart, met_surfaces, surfaces_of
 from softway.marching.slab.slab_step import Stepper
 from softway.marching.state.march_state import Settings
+from softway.marching.state.model_state import ModelState
 from softway.marching.state.step_control import SMALL_STRAIN
 from softway.model.model import Model
 from softway.model.time_weight import EndPeaks, moments
+from softway.solve.equations.energy_balance import body_groups
 from softway.solve.methods.fixed_point import FixedPoint
 
 SLABS = 200
@@ -38,47 +41,65 @@ INVERTED = 1e-6
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SlabTables:
+    """Tables of slabs with the same closed rows, and their contact rows."""
+
+    bodies: Bodies
+    rows: Rows
+    operator: Operator
+    surfaces: Surfaces | None
+    contact_rows: ContactRows
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class CompiledModel:
     """Arrays of a model for slabs of the length ``span`` [s]; ``lower`` and ``pivot`` are the factor of their operator.
 
-    ``surfaces`` are those of solids that may touch each other; ``operators`` keeps that of the last closed rows; it depends on these rows only.
+    ``surfaces`` are those of solids that may touch each other; ``last`` keeps the tables of the last closed rows, which
+    depend on these rows only.
     """
 
     model: Model
     bodies: Bodies
-    rows: Rows
     span: float
     lower: Array
     pivot: Array
     tolerance: float
+    settings: Settings
     surfaces: Surfaces | None
-    operators: dict[bytes, Operator | None] = field(default_factory=dict)
+    last: dict[str, SlabTables | None] = field(default_factory=dict)
 
-    def operator(self, closed: BoolArray) -> Operator | None:
-        """Operator with the rows ``closed`` (m,); None if they depend on each other."""
-        key = closed.tobytes()
-        if key not in self.operators:
-            self.operators.clear()
-            self.operators[key] = self._made(np.flatnonzero(closed))
-        return self.operators[key]
+    def tables(self, now: ModelState) -> SlabTables | None:
+        """Tables for the slabs from a state on; None if closed rows depend on each other, or rows change."""
+        met = met_surfaces(self.model, self.surfaces, now, self.span)
+        if met is None:
+            return None
+        closed = now.pressure > 0.0
+        key = (closed.tobytes() + met.rows.near.tobytes() + met.rows.gradient.indices.tobytes()).hex()
+        if key not in self.last:
+            self.last.clear()
+            self.last[key] = self._made(met, closed)
+        return self.last[key]
 
-    def _made(self, active: IntArray) -> Operator | None:
+    def _made(self, met: MetSurfaces, closed: BoolArray) -> SlabTables | None:
+        rows, active = rows_of(self.model, self.settings, met.rows), np.flatnonzero(closed)
         answers, work = np.zeros((len(active), len(self.bodies.heavy))), np.empty(len(self.pivot))
-        tables = packed(self.bodies), packed(self.rows)
+        tables = packed(self.bodies), packed(rows)
         for row, out in zip(active, answers, strict=True):
             answer(*(each.ctypes.data for each in tables), row, self.lower, self.pivot, work, out)
-        compliance = answers @ _gradient(self.rows, len(self.bodies.heavy))[active].T
+        compliance = answers @ met.rows.gradient[active].T
         inverse = np.zeros((len(active), len(active)))
         if len(active):
             if not np.linalg.cond(compliance) * np.finfo(float).eps < INVERTED:
                 return None
             inverse = np.linalg.inv(compliance.T)
-        return Operator(lower=self.lower, pivot=self.pivot, active=active, answer=answers, inverse=inverse)
-
-
-def _gradient(rows: Rows, size: int) -> sp.csr_array:
-    """Rows (m, N) as a sparse matrix."""
-    return sp.csr_array((rows.value, rows.component, rows.start), shape=(len(rows.offset), size))
+        return SlabTables(
+            bodies=self.bodies._replace(group=_whole(body_groups(self.model, (met.rows, closed)))),
+            rows=rows,
+            operator=Operator(lower=self.lower, pivot=self.pivot, active=active, answer=answers, inverse=inverse),
+            surfaces=met.table,
+            contact_rows=met.rows,
+        )
 
 
 def served(stepper: Stepper, settings: Settings) -> bool:
@@ -134,7 +155,7 @@ def compiled_model(stepper: Stepper, settings: Settings, span: float) -> Compile
     band[i, i - j] = entries.data
     if not factor(band, lower, pivot):
         return None
-    bodies, rows = _bodies(model, place), _rows(model, settings)
+    bodies = bodies_of(model, place)
     if bodies is None:
         return None
     assert isinstance(stepper.method, FixedPoint)
@@ -142,16 +163,16 @@ def compiled_model(stepper: Stepper, settings: Settings, span: float) -> Compile
     return CompiledModel(
         model=model,
         bodies=bodies,
-        rows=rows,
         span=span,
         lower=lower,
         pivot=pivot,
         tolerance=tolerance,
+        settings=settings,
         surfaces=surfaces_of(model.contacts),
     )
 
 
-def _bodies(model: Model, place: IntArray) -> Bodies | None:
+def bodies_of(model: Model, place: IntArray) -> Bodies | None:
     """Arrays of the solids; ``place`` (f,) are the places of the unknowns in the band.
 
     None where translations cause forces.
@@ -188,11 +209,10 @@ def _bodies(model: Model, place: IntArray) -> Bodies | None:
     )
 
 
-def _rows(model: Model, settings: Settings) -> Rows:
-    """Arrays of the contact rows."""
-    rows = model.contacts.known_rows
-    assert rows is not None
-    gradient = sp.csr_array(rows.gradient)
+def rows_of(model: Model, settings: Settings, rows: ContactRows) -> Rows:
+    """Arrays of contact rows."""
+    gradient = sp.csr_array(rows.gradient, copy=True)
+    gradient.sort_indices()
     return Rows(
         start=_whole(gradient.indptr),
         component=_whole(gradient.indices),

@@ -6,7 +6,7 @@ from softway.arrays import Array
 from softway.kernels.jit.by_address import packed
 from softway.kernels.slab.apart import apart
 from softway.kernels.slab.march import slabs
-from softway.kernels.slab.tables import ITERATIONS, MET, SUMS, Course, Work
+from softway.kernels.slab.tables import ITERATIONS, MET, SUMS, Bodies, Course, Rows, Work
 from softway.kernels.slab.works import WORKS
 from softway.marching.slab.compiled_model import CompiledModel
 from softway.marching.slab.slab_batch import SlabBatch, contractions
@@ -34,22 +34,19 @@ def next_batch(
     known = memory.origin is not None and not memory.stale and memory.serves(compiled.span)
     if not (steady and known and max(memory.taken.last, default=0) <= USUAL * WORN):
         return None
-    if now.rows is not None and (model.contacts.known is None or now.pressure[~model.contacts.known].any()):
-        return None
-    operator = compiled.operator(now.pressure > 0.0)
+    tables = compiled.tables(now)
     left = (march_state.settings.until - now.time) / compiled.span - AHEAD
     wanted = int(min(left, TOGETHER, max(1, NUMBERS // (8 * now.start.displacement.size))))
-    if operator is None or wanted < 1:
+    if tables is None or wanted < 1:
         return None
-    course = _course(model, now, wanted, compiled.span)
+    course = new_course(model, now, wanted, compiled.span)
     account = march_state.account
     start = account.energy_start - account.dissipation - account.remeshing
     told = np.array([start, account.work_external, account.energy_error])
-    work = _work(compiled)
-    surfaces = compiled.surfaces
-    given = (compiled.bodies, compiled.rows, operator, course, work, *(() if surfaces is None else (surfaces,)))
-    tables = [packed(each) for each in given]
-    places = np.array([each.ctypes.data for each in tables])
+    work, surfaces = new_work(tables.bodies, tables.rows), tables.surfaces
+    given = (tables.bodies, tables.rows, tables.operator, course, work, *(() if surfaces is None else (surfaces,)))
+    arrays = [packed(each) for each in given]
+    places = np.array([each.ctypes.data for each in arrays])
     parts = np.array([0 if surfaces is None else apart().address])
     count = slabs(places, parts, compiled.tolerance, told, wanted)
     if not count:
@@ -62,13 +59,13 @@ def next_batch(
         course=course,
         iterations=iterations,
         contractions=contractions(course.sums[:count], iterations),
-        pairs=int(np.isfinite(compiled.rows.offset).sum()),
+        rows=tables.contact_rows,
         scalars={part.name: 0.0 for part in model.parts},
         states={0: before},
     )
 
 
-def _course(model: Model, now: ModelState, wanted: int, span: float) -> Course:
+def new_course(model: Model, now: ModelState, wanted: int, span: float) -> Course:
     """Room for states of so many slabs, the first one given."""
     size, m = now.start.displacement.size, len(now.pressure)
 
@@ -96,9 +93,9 @@ def _course(model: Model, now: ModelState, wanted: int, span: float) -> Course:
     )
 
 
-def _work(compiled: CompiledModel) -> Work:
+def new_work(bodies: Bodies, rows: Rows) -> Work:
     """Work space of a call."""
-    size, groups = len(compiled.bodies.heavy), int(compiled.bodies.group.max()) + 1
+    size, groups = len(bodies.heavy), int(bodies.group.max()) + 1
     fields = np.zeros((5, size))
     return Work(
         q=fields[0],
@@ -106,7 +103,7 @@ def _work(compiled: CompiledModel) -> Work:
         before=fields[2],
         after=fields[3],
         push=fields[4],
-        row=np.zeros(len(compiled.rows.offset)),
+        row=np.zeros(len(rows.offset)),
         group=np.zeros((groups, 3)),
-        works=np.zeros((len(compiled.bodies.floor), WORKS)),
+        works=np.zeros((len(bodies.floor), WORKS)),
     )

@@ -103,7 +103,7 @@ def next_resident(
         course=_course(resident, states, sums, met),
         iterations=iterations,
         contractions=contractions(sums[: len(lengths)], iterations),
-        pairs=model.contacts.rest(model.displacement, 0.0).found,
+        rows=model.contacts.rest(model.displacement, 0.0).start(model.displacement),
         scalars={part.name: 0.0 for part in model.parts},
         states={0: before},
         lengths=tuple(lengths),

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from softway.arrays import Array
+from softway.contact.contact_rows import ContactRows
 from softway.kernels.slab.tables import ERROR, FIRST, LAST, WORK, Course
 from softway.marching.state.march_state import MarchState
 from softway.marching.state.model_state import ModelState, split_states
@@ -31,8 +32,8 @@ class SlabBatch:
         States and sums of the slabs, and number of iterations of each.
     contractions
         Mean ratio of successive changes in each slab.
-    pairs, scalars
-        Pairs of the contact search, and scalars of the solids: the same in all slabs.
+    rows, scalars
+        Contact rows, and scalars of the solids: the same in all slabs.
     states
         States that were asked for, by the number of slabs before them.
     lengths
@@ -45,10 +46,15 @@ class SlabBatch:
     course: Course
     iterations: tuple[int, ...]
     contractions: tuple[float, ...]
-    pairs: int
+    rows: ContactRows
     scalars: Mapping[str, float]
     states: dict[int, State]
     lengths: tuple[float, ...] = ()
+
+    @property
+    def pairs(self) -> int:
+        """Pairs of the contact search of each slab."""
+        return int(np.count_nonzero(self.rows.near))
 
     def state(self, count: int) -> State:
         """State after so many slabs; made when it is asked for, and then kept."""
@@ -95,7 +101,7 @@ class SlabBatch:
             pressure=course.pressure[count],
             traction=np.zeros_like(first.traction),
             sliding=np.zeros_like(first.sliding),
-            rows=self.model.contacts.known_rows if self.model.contacts.paired else None,
+            rows=self.rows if self.model.contacts.paired else None,
             span=float(course.time[count] - course.time[count - 1]),
         )
 
