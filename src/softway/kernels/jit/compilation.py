@@ -64,6 +64,7 @@ _SHARED = (
     "pile/through.py",
     "slab/apart.py",
     "slab/audit.py",
+    "slab/driven.py",
     "slab/products.py",
     "slab/tables.py",
     "slab/works.py",

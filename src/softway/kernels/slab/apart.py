@@ -147,5 +147,5 @@ def _boxed(bodies, course, surfaces, h, s, k):
 def expected(bodies, course, h, s, c):
     """Displacement of a component at the end of a slab, if its velocity goes on as before."""
     v = course.v[s, c]
-    rate = v + h * course.slope[s, c]
-    return course.u[s, c] + h * (0.5 * (v + rate) if bodies.heavy[c] else rate)
+    rate = v + h * course.slope[s, c] if bodies.place[c] >= 0 else bodies.given[c]
+    return course.u[s, c] + h * (0.5 * (v + rate) if bodies.heavy[c] else rate) + bodies.bent[c]

@@ -35,7 +35,7 @@ def closes(bodies, rows, course, work, unit, s):
     work.group[:] = 0.0
     for c in range(len(work.push)):
         work.push[c] = 0.5 * (f0[c] + f1[c])
-    loads = (bodies.load, bodies.load)
+    loads = (bodies.load_before, bodies.load)
     part_works(bodies.first, d, bodies.heavy, loads, u0, u1, (f0, f1), work.push, work.works)
     for r in range(len(rows.offset)):
         if course.pressure[s, r] > 0.0 or course.pressure[s + 1, r] > 0.0:
@@ -53,6 +53,9 @@ def closes(bodies, rows, course, work, unit, s):
     for r in range(len(rows.offset)):
         g = bodies.group[rows.part[r]]
         work.group[g, 1] += blur * (abs(course.pressure[s, r]) + abs(unit * course.pressure[s + 1, r]))
+        pushed = 0.5 * rows.moved[r] * (course.pressure[s, r] + unit * course.pressure[s + 1, r])
+        work.group[g, 0] -= pushed
+        work.group[g, 1] += SUMS * 2.0 * abs(pushed)
     closed = True
     for g in range(len(work.group)):
         closed = closed and abs(work.group[g, 0]) <= SURE * work.group[g, 1]
@@ -78,7 +81,7 @@ def audited(bodies, rows, course, work, account, s):
         _supported(bodies, course, work, h, s)
     size = _momentum(bodies, course, work, h, s)
     _spin(bodies, course, work, s)
-    level = _energies(bodies, course, work, account, s)
+    level = _energies(bodies, rows, course, work, account, s)
     rest = 0.0
     for part in range(len(bodies.floor)):
         rest += bodies.floor[part]
@@ -99,7 +102,7 @@ def _touching(rows, course, work, s):
     for r in range(len(rows.offset)):
         met, p0, p1 = course.met[s, rows.contact[r]], course.pressure[s, r], course.pressure[s + 1, r]
         gap = rows.offset[r] + along(rows, r, course.u[s + 1])
-        before = rows.offset[r] + along(rows, r, course.u[s]) if p0 > 0.0 else 0.0
+        before = rows.before[r] + along(rows, r, course.u[s]) if p0 > 0.0 else 0.0
         force = 0.5 * p0 + 0.5 * p1
         work.row[r] = force
         met[FORCE] += force
@@ -122,7 +125,8 @@ def _supported(bodies, course, work, h, s):
         if bodies.place[c] < 0:
             inertia = (work.after[c] - work.before[c]) / h
             mean = 0.5 * course.force[s, c] + 0.5 * course.force[s + 1, c]
-            course.support[s, c] = inertia + mean - bodies.load[c] - work.push[c]
+            load = 0.5 * bodies.load_before[c] + 0.5 * bodies.load[c]
+            course.support[s, c] = inertia + mean - load - work.push[c]
 
 
 @called
@@ -136,7 +140,8 @@ def _momentum(bodies, course, work, h, s):
         gained, pushed = 0.0, 0.0
         for i in range(len(bodies.weight)):
             c = i * d + a
-            given = bodies.load[c] + work.push[c] + (course.support[s, c] if held else 0.0)
+            load = 0.5 * bodies.load_before[c] + 0.5 * bodies.load[c]
+            given = load + work.push[c] + (course.support[s, c] if held else 0.0)
             gained += bodies.weight[i] * (course.v[s + 1, c] - course.v[s, c])
             pushed += given
             size += abs(work.before[c]) + abs(work.after[c]) + h * abs(given)
@@ -161,7 +166,7 @@ def _spin(bodies, course, work, s):
 
 
 @called
-def _energies(bodies, course, work, account, s):
+def _energies(bodies, rows, course, work, account, s):
     """Set energies, work and the error of their balance; the energy that takes part.
 
     ``account`` are the energy at the start less losses, and external work and error before the first slab.
@@ -169,7 +174,11 @@ def _energies(bodies, course, work, account, s):
     kinetic, strain, level, done = 0.0, 0.0, 0.0, 0.0
     for c in range(len(work.q)):
         kinetic += course.v[s + 1, c] * work.after[c]
-        done += bodies.load[c] * (course.u[s + 1, c] - course.u[s, c])
+        done += (0.5 * bodies.load_before[c] + 0.5 * bodies.load[c]) * (course.u[s + 1, c] - course.u[s, c])
+    for r in range(len(rows.moved)):
+        done += work.row[r] * rows.moved[r]
+    if course.support.shape[0]:
+        done += _driven(bodies, course, work, s)
     for part in range(len(bodies.floor)):
         strain += course.energy[s + 1, part]
         level += abs(course.energy[s, part]) + abs(course.energy[s + 1, part])
@@ -178,6 +187,17 @@ def _energies(bodies, course, work, account, s):
     sums[KINETIC], sums[STRAIN], sums[WORK] = 0.5 * kinetic, strain, total
     sums[ERROR] = 0.5 * kinetic + strain - account[0] - total
     return level + 0.5 * kinetic + abs(total)
+
+
+@called
+def _driven(bodies, course, work, s):
+    """Work of the supports; without the part that accelerates nodes over the way beyond that of linear velocities."""
+    h, total = course.time[s + 1] - course.time[s], 0.0
+    for c in range(len(work.q)):
+        if bodies.place[c] < 0:
+            total += course.support[s, c] * (course.u[s + 1, c] - course.u[s, c])
+            total -= (work.after[c] - work.before[c]) / h * bodies.bent[c]
+    return total
 
 
 @called

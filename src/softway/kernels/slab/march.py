@@ -29,7 +29,7 @@ LEAST = 1e-9
 """Force of a row, relative to the greatest one, above which it stays closed."""
 CLOSE = 1e-14
 """Difference of velocities, relative to them, that is rounding."""
-ALLOWS = 0
+ALLOWS, PREPARES = range(2)
 """Places of the optional parts."""
 UNIT = 0.5
 """Second moment of the end peaks: the part of the slab in which a force at its end acts."""
@@ -63,14 +63,16 @@ def answer(bodies_place, rows_place, r, lower, pivot, x, out):
 def slabs(places, parts, tolerance, account, wanted):
     """Compute up to ``wanted`` slabs from the first state of a course, and return how many were computed.
 
-    ``places`` (5,) are the addresses of the tables of bodies, rows, operator, course and work, and further ones of
-    optional ``parts`` (1,): the address of a part that allows a solved slab, or zero.
+    ``places`` (7,) are the addresses of the tables of bodies, rows, operator, course and work, and of those of optional
+    ``parts`` (2,): the addresses of a part that allows a solved slab, and of one that prepares a slab, or zero.
     ``account`` (2,) are energy at the start of the march and external work, ``tolerance`` that of the iteration.
     """
     bodies, rows, operator = bodies_at(places[0]), rows_at(places[1]), operator_at(places[2])
     course, work = course_at(places[3]), work_at(places[4])
     momenta(bodies, course.v[0], work.before)
     for s in range(wanted):
+        if parts[PREPARES] != 0:
+            ask(parts[PREPARES], places, s)
         if not _slab(bodies, rows, operator, course, work, tolerance, s):
             return s
         if not audited(bodies, rows, course, work, account, s):
@@ -122,9 +124,9 @@ def _expect(bodies, rows, course, work, h, s):
     """Set q (N,) to the velocity that goes on as before; false if a row would overlap too far without contact."""
     u, v, slope, end = course.u[s], course.v[s], course.slope[s], work.x
     for c in range(len(work.q)):
-        rate = v[c] + h * slope[c]
-        work.q[c] = 0.0 if bodies.place[c] < 0 else rate if bodies.heavy[c] else 2.0 * rate
-        end[c] = u[c] + h * (0.5 * (v[c] + rate) if bodies.heavy[c] else rate)
+        rate = v[c] + h * slope[c] if bodies.place[c] >= 0 else bodies.given[c]
+        work.q[c] = rate if bodies.heavy[c] else 2.0 * rate
+        end[c] = u[c] + h * (0.5 * (v[c] + rate) if bodies.heavy[c] else rate) + bodies.bent[c]
     slow = True
     for r in range(len(rows.offset)):
         slow = slow and rows.offset[r] + along(rows, r, end) >= -rows.allowed[r]
@@ -135,7 +137,7 @@ def _expect(bodies, rows, course, work, h, s):
 def arrive(bodies, u, v, q, h, out):
     """Displacement (N,) at the end of a slab of the length h, for q (N,)."""
     for c in range(len(q)):
-        out[c] = u[c] + h * (0.5 * (v[c] + q[c]) if bodies.heavy[c] else 0.5 * q[c])
+        out[c] = u[c] + h * (0.5 * (v[c] + q[c]) if bodies.heavy[c] else 0.5 * q[c]) + bodies.bent[c]
 
 
 @called

@@ -13,8 +13,9 @@ class Bodies(NamedTuple):
     unknowns; ``heavy`` (N,) are components with inertia, ``place`` (N,) the places of the components in the band, -1
     for a supported one.  ``mass`` and ``stiff`` are sparse rows of nodes: ``mass_start`` (n + 1,), ``mass_node``
     (z,), ``mass`` (z,) and the row sums ``weight`` (n,); ``stiff_start`` (n + 1,), ``stiff_node`` (y,) and ``stiff``
-    (y, d, d) without the diagonal, as translations cause no force.  ``points``, ``load`` (N,) and ``floor`` (parts,) as
-    in the model.
+    (y, d, d) without the diagonal, as translations cause no force.  ``points``, ``load`` and ``load_before``
+    (N,), at both ends of a slab, and ``floor`` (parts,) as in the model.  Supports have the velocity ``given`` (N,) at
+    the end of a slab, and move by ``bent`` (N,) beyond the way of linear velocities.
     """
 
     dimension: int
@@ -31,19 +32,25 @@ class Bodies(NamedTuple):
     stiff: Array
     points: Array
     load: Array
+    load_before: Array
+    given: Array
+    bent: Array
     floor: Array
 
 
 class Rows(NamedTuple):
-    """Contact rows (m,) that never change: sparse rows ``start`` (m + 1,), ``component`` and ``value`` (z,), ``offset``
-    (m,), ``contact`` (m,) and ``part`` (m,) of each, if unknowns ``move`` it (m,), and the overlap ``allowed`` (m,) of
+    """Contact rows (m,) whose directions never change: sparse rows ``start`` (m + 1,), ``component`` and ``value`` (z,),
+    gaps at zero displacement at both ends of a slab, ``before`` and ``offset`` (m,), normal motion ``moved`` (m,) of the
+    tools in between, ``contact`` (m,) and ``part`` (m,) of each, if unknowns ``move`` it (m,), and the overlap ``allowed`` (m,) of
     the free motion [m].
     """
 
     start: IntArray
     component: IntArray
     value: Array
+    before: Array
     offset: Array
+    moved: Array
     contact: IntArray
     part: IntArray
     move: BoolArray
@@ -111,6 +118,9 @@ bodies_at = table(
     stiff=BLOCKS,
     points=NUMBERS,
     load=NUMBERS,
+    load_before=NUMBERS,
+    given=NUMBERS,
+    bent=NUMBERS,
     floor=NUMBERS,
 )
 rows_at = table(
@@ -118,7 +128,9 @@ rows_at = table(
     start=WHOLES,
     component=WHOLES,
     value=NUMBERS,
+    before=NUMBERS,
     offset=NUMBERS,
+    moved=NUMBERS,
     contact=WHOLES,
     part=WHOLES,
     move=FLAGS,

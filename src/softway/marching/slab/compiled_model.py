@@ -19,6 +19,7 @@ from softway.kernels.slab.march import answer, factor
 from softway.kernels.slab.tables import Bodies, Operator, Rows
 from softway.marching.rules.equilibrated import EndForceContact, Equilibrated
 from softway.marching.slab.rows.apart import MetSurfaces, may_stay_apart, met_surfaces, surfaces_of
+from softway.marching.slab.rows.driven import supports_move_mass, tools_keep_direction
 from softway.marching.slab.slab_step import Stepper
 from softway.marching.state.march_state import Settings
 from softway.marching.state.model_state import ModelState
@@ -40,6 +41,36 @@ INVERTED = 1e-6
 """Greatest error of the inverse compliance of the closed rows: rows that depend on each other have none."""
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class BandOrder:
+    """Places (f,) of the unknowns in a band with ``width`` diagonals, after the ordering of Cuthill and McKee."""
+
+    place: IntArray
+    width: int
+
+
+def band_order(matrix: sp.csr_array) -> BandOrder | None:
+    """Order of a symmetric matrix (f, f) in a band; None if it is empty, or the band too large."""
+    if not matrix.shape[0]:
+        return None
+    order = np.asarray(reverse_cuthill_mckee(matrix, symmetric_mode=True), np.int64)
+    place = np.empty(len(order), np.int64)
+    place[order] = np.arange(len(order))
+    i, j = sp.coo_array(matrix).coords
+    width = int(np.abs(place[i] - place[j]).max(initial=0)) + 1
+    return None if width * len(order) > LARGEST else BandOrder(place, width)
+
+
+def banded_factor(matrix: sp.csr_array, order: BandOrder) -> tuple[Array, Array] | None:
+    """Factor in a band: ``lower`` (f, w + 1) and ``pivot`` (f,); None if the matrix is not positive definite."""
+    entries = sp.coo_array(matrix)
+    i, j = (order.place[c] for c in entries.coords)
+    below, shape = i >= j, (matrix.shape[0], order.width)
+    band, lower, pivot = np.zeros(shape), np.zeros(shape), np.zeros(shape[0])
+    band[i[below], (i - j)[below]] = entries.data[below]
+    return (lower, pivot) if factor(band, lower, pivot) else None
+
+
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class SlabTables:
     """Tables of slabs with the same closed rows, and their contact rows."""
@@ -53,40 +84,54 @@ class SlabTables:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class CompiledModel:
-    """Arrays of a model for slabs of the length ``span`` [s]; ``lower`` and ``pivot`` are the factor of their operator.
+    """Arrays of a model for slabs of the length ``span`` [s], or less where these end at the instants ``ends``.
 
-    ``surfaces`` are those of solids that may touch each other; ``last`` keeps the tables of the last closed rows, which
-    depend on these rows only.
+    ``order`` is that of the unknowns in a band; ``surfaces`` are those of solids that may touch each other; ``factors``
+    and ``last`` keep the factors of the last length and the tables of the last closed rows, which depend on these only.
     """
 
     model: Model
     bodies: Bodies
+    order: BandOrder
     span: float
-    lower: Array
-    pivot: Array
+    ends: tuple[float, ...]
     tolerance: float
     settings: Settings
     surfaces: Surfaces | None
+    factors: dict[float, tuple[Array, Array] | None] = field(default_factory=dict)
     last: dict[str, SlabTables | None] = field(default_factory=dict)
 
-    def tables(self, now: ModelState) -> SlabTables | None:
-        """Tables for the slabs from a state on; None if closed rows depend on each other, or rows change."""
-        met = met_surfaces(self.model, self.surfaces, now, self.span)
+    def factor(self, span: float) -> tuple[Array, Array] | None:
+        """Factor of the operator of slabs of the length ``span`` [s]; None if it is not positive definite."""
+        if span not in self.factors:
+            self.factors.clear()
+            self.factors[span] = banded_factor(_operator(self.model, self.settings, span), self.order)
+        return self.factors[span]
+
+    def tables(self, now: ModelState, span: float) -> SlabTables | None:
+        """Tables for slabs of the length ``span`` [s] from a state on; None if closed rows depend on each other, rows
+        change, or the operator is not positive definite.
+        """
+        met = met_surfaces(self.model, self.surfaces, now, span)
         if met is None:
             return None
         closed = now.pressure > 0.0
-        key = (closed.tobytes() + met.rows.near.tobytes() + met.rows.gradient.indices.tobytes()).hex()
+        key = (closed.tobytes() + met.rows.near.tobytes() + met.rows.gradient.indices.tobytes()).hex() + span.hex()
         if key not in self.last:
             self.last.clear()
-            self.last[key] = self._made(met, closed)
+            self.last[key] = self._made(met, closed, span)
         return self.last[key]
 
-    def _made(self, met: MetSurfaces, closed: BoolArray) -> SlabTables | None:
-        rows, active = rows_of(self.model, self.settings, met.rows), np.flatnonzero(closed)
-        answers, work = np.zeros((len(active), len(self.bodies.heavy))), np.empty(len(self.pivot))
+    def _made(self, met: MetSurfaces, closed: BoolArray, span: float) -> SlabTables | None:
+        """Tables of closed rows (m,)."""
+        found = self.factor(span)
+        if found is None:
+            return None
+        rows, active, (lower, pivot) = rows_of(self.model, self.settings, met.rows), np.flatnonzero(closed), found
+        answers, work = np.zeros((len(active), len(self.bodies.heavy))), np.empty(len(pivot))
         tables = packed(self.bodies), packed(rows)
         for row, out in zip(active, answers, strict=True):
-            answer(*(each.ctypes.data for each in tables), row, self.lower, self.pivot, work, out)
+            answer(*(each.ctypes.data for each in tables), row, lower, pivot, work, out)
         compliance = answers @ met.rows.gradient[active].T
         inverse = np.zeros((len(active), len(active)))
         if len(active):
@@ -96,7 +141,7 @@ class CompiledModel:
         return SlabTables(
             bodies=self.bodies._replace(group=_whole(body_groups(self.model, (met.rows, closed)))),
             rows=rows,
-            operator=Operator(lower=self.lower, pivot=self.pivot, active=active, answer=answers, inverse=inverse),
+            operator=Operator(lower=lower, pivot=pivot, active=active, answer=answers, inverse=inverse),
             surfaces=met.table,
             contact_rows=met.rows,
         )
@@ -112,7 +157,6 @@ def served(stepper: Stepper, settings: Settings) -> bool:
         and rule.calm == 0.0
         and settings.weight == EndPeaks()
         and settings.tolerance is None
-        and not stepper.ends
         and _fixed(model)
         and all(_linear(part.internal) and part.shock is None for part in model.parts)
         and all(isinstance(part.average, Weighted) for part in model.parts)
@@ -121,11 +165,11 @@ def served(stepper: Stepper, settings: Settings) -> bool:
 
 def _fixed(model: Model) -> bool:
     """True if nothing but the motion of solids with inertia changes from slab to slab."""
-    alone = not (model.companions or model.driven or model.adapted) and model.rigid is None
+    alone = not (model.companions or model.adapted) and model.rigid is None and supports_move_mass(model)
     plain = isinstance(model.dofs, NodalDofs) and isinstance(model.space, LocalSpace)
-    still = model.loads.steady and np.array_equal(model.load, model.load_before) and model.inert
-    known = model.contacts.known_rows is not None and may_stay_apart(model.contacts)
-    met = known and model.friction.frictionless and model.contacts.clearance is None
+    still = not model.loads.steady or np.array_equal(model.load, model.load_before)
+    known = tools_keep_direction(model.contacts) and may_stay_apart(model.contacts)
+    met = known and model.friction.frictionless and model.contacts.clearance is None and model.inert
     return bool(alone and plain and still and met and model.linear)
 
 
@@ -138,37 +182,30 @@ def compiled_model(stepper: Stepper, settings: Settings, span: float) -> Compile
     model = stepper.model
     if settings.until < SLABS * span or not served(stepper, settings):
         return None
-    matrix = sp.csr_array(
-        model.inertia_and_stiffness(np.zeros(model.shape), 0.5 * span**2 * moments(settings.weight)[1])
-    )
-    if not matrix.shape[0]:
+    order = band_order(_operator(model, settings, span))
+    if order is None:
         return None
-    order = np.asarray(reverse_cuthill_mckee(matrix, symmetric_mode=True), np.int64)
-    place = np.empty(len(order), np.int64)
-    place[order] = np.arange(len(order))
-    entries = sp.tril(matrix[order][:, order], format="coo")
-    i, j = entries.coords
-    width = int((i - j).max(initial=0)) + 1
-    if width * len(order) > LARGEST:
-        return None
-    band, lower, pivot = np.zeros((len(order), width)), np.zeros((len(order), width)), np.zeros(len(order))
-    band[i, i - j] = entries.data
-    if not factor(band, lower, pivot):
-        return None
-    bodies = bodies_of(model, place)
+    bodies = bodies_of(model, order.place)
     if bodies is None:
         return None
     assert isinstance(stepper.method, FixedPoint)
-    tolerance = stepper.method.tolerance
-    return CompiledModel(
+    compiled = CompiledModel(
         model=model,
         bodies=bodies,
+        order=order,
         span=span,
-        lower=lower,
-        pivot=pivot,
-        tolerance=tolerance,
+        ends=stepper.ends,
+        tolerance=stepper.method.tolerance,
         settings=settings,
         surfaces=surfaces_of(model.contacts),
+    )
+    return None if compiled.factor(span) is None else compiled
+
+
+def _operator(model: Model, settings: Settings, span: float) -> sp.csr_array:
+    """Operator (f, f) of slabs of the length ``span`` [s]."""
+    return sp.csr_array(
+        model.inertia_and_stiffness(np.zeros(model.shape), 0.5 * span**2 * moments(settings.weight)[1])
     )
 
 
@@ -204,7 +241,10 @@ def bodies_of(model: Model, place: IntArray) -> Bodies | None:
         stiff_node=_whole(stiff.indices[others]),
         stiff=np.ascontiguousarray(stiff.data[others]),
         points=np.ascontiguousarray(model.points, float).ravel(),
-        load=np.ascontiguousarray(model.load, float).ravel(),
+        load=np.array(model.load, float).ravel(),
+        load_before=np.array(model.load_before, float).ravel(),
+        given=np.zeros(n * d),
+        bent=np.zeros(n * d),
         floor=np.asarray(model.floor, float),
     )
 
@@ -217,7 +257,9 @@ def rows_of(model: Model, settings: Settings, rows: ContactRows) -> Rows:
         start=_whole(gradient.indptr),
         component=_whole(gradient.indices),
         value=gradient.data.astype(float),
-        offset=np.asarray(rows.offset, float),
+        before=np.array(rows.offset, float),
+        offset=np.array(rows.offset, float),
+        moved=np.zeros(len(rows.offset)),
         contact=_whole(rows.contact),
         part=_whole(model.part_of[rows.node]),
         move=rows.reachable(model.dofs),

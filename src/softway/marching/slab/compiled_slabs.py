@@ -5,11 +5,14 @@ import numpy as np
 from softway.arrays import Array
 from softway.kernels.jit.by_address import packed
 from softway.kernels.slab.apart import apart
+from softway.kernels.slab.driven import driven
 from softway.kernels.slab.march import slabs
 from softway.kernels.slab.tables import ITERATIONS, MET, SUMS, Bodies, Course, Rows, Work
 from softway.kernels.slab.works import WORKS
 from softway.marching.slab.compiled_model import CompiledModel
+from softway.marching.slab.rows.driven import drives
 from softway.marching.slab.slab_batch import SlabBatch, contractions
+from softway.marching.start.knots import length_at, slab_end
 from softway.marching.state.march_state import MarchState
 from softway.marching.state.model_state import ModelState
 from softway.model.model import Model
@@ -21,6 +24,9 @@ TOGETHER, NUMBERS = 256, 200_000
 AHEAD = 2.0
 """Slabs at the end of a march that are not compiled: the last one ends at a given instant."""
 
+SAME = 1e-9
+"""Relative difference of the lengths of slabs that have the same operator."""
+
 
 def next_batch(
     compiled: CompiledModel, march_state: MarchState, before: State, memory: OperatorMemory
@@ -31,24 +37,25 @@ def next_batch(
     """
     now, history, model = march_state.state, march_state.step_history, compiled.model
     steady = history.length == history.span == compiled.span and not (history.halted or history.energy_along_motion)
-    known = memory.origin is not None and not memory.stale and memory.serves(compiled.span)
+    known = memory.origin is not None and not memory.stale
     if not (steady and known and max(memory.taken.last, default=0) <= USUAL * WORN):
         return None
-    tables = compiled.tables(now)
-    left = (march_state.settings.until - now.time) / compiled.span - AHEAD
-    wanted = int(min(left, TOGETHER, max(1, NUMBERS // (8 * now.start.displacement.size))))
-    if tables is None or wanted < 1:
+    span = compiled.span if memory.serves(compiled.span) else memory.span
+    times = _times(compiled, march_state, span)
+    tables = compiled.tables(now, span) if len(times) > 1 else None
+    if tables is None:
         return None
-    course = new_course(model, now, wanted, compiled.span)
+    course = new_course(model, now, len(times) - 1, times)
     account = march_state.account
     start = account.energy_start - account.dissipation - account.remeshing
     told = np.array([start, account.work_external, account.energy_error])
     work, surfaces = new_work(tables.bodies, tables.rows), tables.surfaces
-    given = (tables.bodies, tables.rows, tables.operator, course, work, *(() if surfaces is None else (surfaces,)))
-    arrays = [packed(each) for each in given]
-    places = np.array([each.ctypes.data for each in arrays])
-    parts = np.array([0 if surfaces is None else apart().address])
-    count = slabs(places, parts, compiled.tolerance, told, wanted)
+    changing = drives(model, tables.contact_rows, times)
+    given = (tables.bodies, tables.rows, tables.operator, course, work, surfaces, changing)
+    arrays = [None if each is None else packed(each) for each in given]
+    places = np.array([0 if each is None else each.ctypes.data for each in arrays])
+    parts = np.array([0 if surfaces is None else apart().address, 0 if changing is None else driven().address])
+    count = slabs(places, parts, compiled.tolerance, told, len(times) - 1)
     if not count:
         return None
     iterations = tuple(int(i) for i in course.sums[:count, ITERATIONS].tolist())
@@ -65,7 +72,24 @@ def next_batch(
     )
 
 
-def new_course(model: Model, now: ModelState, wanted: int, span: float) -> Course:
+def _times(compiled: CompiledModel, march_state: MarchState, span: float) -> Array:
+    """Ends (s + 1,) [s] of the next slabs of the length ``span`` [s], those of the solver for all models; not of the
+    last ones of the march, which may be shorter.
+    """
+    settings, history, now = march_state.settings, march_state.step_history, march_state.state
+    left = (settings.until - now.time) / compiled.span - AHEAD
+    wanted = int(min(left, TOGETHER, max(1, NUMBERS // (8 * now.start.displacement.size))))
+    times = [now.time]
+    for _ in range(wanted):
+        length = length_at(compiled.ends, settings, history, times[-1]) if compiled.ends else compiled.span
+        end = slab_end(compiled.ends, settings.until, times[-1], length)
+        if abs((end - times[-1]) / span - 1.0) > SAME:
+            break
+        times.append(end)
+    return np.array(times)
+
+
+def new_course(model: Model, now: ModelState, wanted: int, times: Array) -> Course:
     """Room for states of so many slabs, the first one given."""
     size, m = now.start.displacement.size, len(now.pressure)
 
@@ -74,13 +98,9 @@ def new_course(model: Model, now: ModelState, wanted: int, span: float) -> Cours
         out[0] = first.ravel()
         return out
 
-    time = np.empty(wanted + 1)
-    time[0] = now.time
-    for s in range(wanted):
-        time[s + 1] = time[s] + span
     supported = not model.space.every(model.dofs.unsupported)
     return Course(
-        time=time,
+        time=times,
         u=room(now.start.displacement, size),
         v=room(now.start.velocity, size),
         slope=room(now.acceleration, size),

@@ -8,6 +8,7 @@ import numpy as np
 from softway.arrays import Array
 from softway.contact.contact_rows import ContactRows
 from softway.kernels.slab.tables import ERROR, FIRST, LAST, WORK, Course
+from softway.marching.slab.rows.driven import rows_at
 from softway.marching.state.march_state import MarchState
 from softway.marching.state.model_state import ModelState, split_states
 from softway.mechanisms.step import BodyState
@@ -85,6 +86,7 @@ class SlabBatch:
     def _state(self, count: int) -> ModelState:
         """State of the model after so many slabs."""
         course, shape, first = self.course, self.model.shape, self.begun.state
+        time = float(self.course.time[count])
         start = SlabStart(
             displacement=course.u[count].reshape(shape),
             velocity=course.v[count].reshape(shape),
@@ -94,14 +96,14 @@ class SlabBatch:
             viscous=None,
         )
         return ModelState(
-            time=float(course.time[count]),
+            time=time,
             start=start,
             acceleration=course.slope[count].reshape(shape),
             closed=course.pressure[count] > 0.0,
             pressure=course.pressure[count],
             traction=np.zeros_like(first.traction),
             sliding=np.zeros_like(first.sliding),
-            rows=self.rows if self.model.contacts.paired else None,
+            rows=rows_at(self.model, self.rows, time) if self.model.contacts.paired else None,
             span=float(course.time[count] - course.time[count - 1]),
         )
 

@@ -45,7 +45,11 @@ def slab_ends(model: Model, settings: Settings, span: float) -> tuple[float, ...
 
 def slab_length(ends: tuple[float, ...], march_state: MarchState) -> float:
     """Length [s] of the next slab, at most the proposed one: it divides the time to the next end evenly."""
-    settings, history, time = march_state.settings, march_state.step_history, march_state.state.time
+    return length_at(ends, march_state.settings, march_state.step_history, march_state.state.time)
+
+
+def length_at(ends: tuple[float, ...], settings: Settings, history: StepHistory, time: float) -> float:
+    """Length [s] of a slab that begins at a time [s], see :func:`slab_length`."""
     least, until, lowest = settings.control.least * history.span, settings.until, min(history.length, history.span)
     sliver = max(SLIVER * lowest, least)
     for end in ends:

@@ -11,6 +11,7 @@ from softway.contact.contact_set import ContactSet
 from softway.contact.surfaces.boundary import ContactSurface
 from softway.contact.surfaces.search_margin import SearchMargin, magnified, swelling
 from softway.kernels.slab.apart import Surfaces
+from softway.marching.slab.rows.driven import tool_rows
 from softway.marching.state.model_state import ModelState
 from softway.model.model import Model
 
@@ -60,8 +61,7 @@ def met_surfaces(model: Model, table: Surfaces | None, now: ModelState, span: fl
     Ends of bars that are near each other have a row that never changes.  Its offset is computed from the reference
     positions, so that it does not depend on the state.
     """
-    contacts, rows = model.contacts, model.contacts.known_rows
-    assert rows is not None
+    contacts, rows = model.contacts, tool_rows(model.contacts)
     if table is None or model.shape[1] > 1:
         return MetSurfaces(rows=rows, table=table)
     near = _near(model, table, now)
