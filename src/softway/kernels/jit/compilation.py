@@ -65,6 +65,7 @@ _SHARED = (
     "slab/apart.py",
     "slab/audit.py",
     "slab/driven.py",
+    "slab/friction.py",
     "slab/products.py",
     "slab/tables.py",
     "slab/works.py",

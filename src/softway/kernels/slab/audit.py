@@ -10,8 +10,10 @@ from softway.kernels.slab.tables import (
     COUNT,
     ERROR,
     FORCE,
+    FORCE_T,
     GAP,
     KINETIC,
+    LOST,
     MOMENTUM,
     POWER,
     SPIN,
@@ -37,11 +39,12 @@ def closes(bodies, rows, course, work, unit, s):
         work.push[c] = 0.5 * (f0[c] + f1[c])
     loads = (bodies.load_before, bodies.load)
     part_works(bodies.first, d, bodies.heavy, loads, u0, u1, (f0, f1), work.push, work.works)
-    for r in range(len(rows.offset)):
+    rough = len(rows.offset) > rows.count
+    for r in range(rows.count):
         if course.pressure[s, r] > 0.0 or course.pressure[s + 1, r] > 0.0:
             work.group[bodies.group[rows.part[r]], 2] = 1.0
     for part in range(len(bodies.floor)):
-        flies = work.group[bodies.group[part], 2] == 0.0
+        flies = rough or work.group[bodies.group[part], 2] == 0.0
         V0, V1, found = course.energy[s, part], course.energy[s + 1, part], work.works[part]
         kinetic = 0.0
         for c in range(bodies.first[part] * d, bodies.first[part + 1] * d):
@@ -50,12 +53,13 @@ def closes(bodies, rows, course, work, unit, s):
         g = bodies.group[part]
         work.group[g, 0] += V1 - V0 - found[MOVING] - (found[ENDS] if flies else found[STILL])
         work.group[g, 1] += SUMS * level + bodies.floor[part]
-    for r in range(len(rows.offset)):
+    for r in range(rows.count):
         g = bodies.group[rows.part[r]]
         work.group[g, 1] += blur * (abs(course.pressure[s, r]) + abs(unit * course.pressure[s + 1, r]))
-        pushed = 0.5 * rows.moved[r] * (course.pressure[s, r] + unit * course.pressure[s + 1, r])
-        work.group[g, 0] -= pushed
-        work.group[g, 1] += SUMS * 2.0 * abs(pushed)
+        force = 0.5 * (course.pressure[s, r] + unit * course.pressure[s + 1, r])
+        moved = along(rows, r, u1) - along(rows, r, u0) if rough and force > 0.0 else 0.0
+        work.group[g, 0] += force * (moved - rows.moved[r])
+        work.group[g, 1] += SUMS * 2.0 * abs(force * rows.moved[r])
     closed = True
     for g in range(len(work.group)):
         closed = closed and abs(work.group[g, 0]) <= SURE * work.group[g, 1]
@@ -72,7 +76,7 @@ def audited(bodies, rows, course, work, account, s):
         course.slope[s + 1, c] = (v - course.v[s, c]) * (1.0 / h)
         work.push[c] = 0.0
     momenta(bodies, course.v[s + 1], work.after)
-    course.met[s] = 0.0
+    course.met[s, :, :FORCE_T] = 0.0
     for k in range(course.met.shape[1]):
         course.met[s, k, GAP] = np.inf
     gap = _touching(rows, course, work, s)
@@ -99,7 +103,9 @@ def _touching(rows, course, work, s):
     """Sums over the contacts; the least gap.  ``work.row`` are the mean forces of the rows."""
     least = np.inf
     course.sums[s, COMPLEMENTARITY] = course.sums[s, POWER] = 0.0
-    for r in range(len(rows.offset)):
+    for r in range(rows.count, len(rows.offset)):
+        work.row[r] = 0.5 * course.pressure[s, r] + 0.5 * course.pressure[s + 1, r]
+    for r in range(rows.count):
         met, p0, p1 = course.met[s, rows.contact[r]], course.pressure[s, r], course.pressure[s + 1, r]
         gap = rows.offset[r] + along(rows, r, course.u[s + 1])
         before = rows.before[r] + along(rows, r, course.u[s]) if p0 > 0.0 else 0.0
@@ -169,7 +175,7 @@ def _spin(bodies, course, work, s):
 def _energies(bodies, rows, course, work, account, s):
     """Set energies, work and the error of their balance; the energy that takes part.
 
-    ``account`` are the energy at the start less losses, and external work and error before the first slab.
+    ``account`` are the energy at the start, and external work and error before the first slab.
     """
     kinetic, strain, level, done = 0.0, 0.0, 0.0, 0.0
     for c in range(len(work.q)):
@@ -185,7 +191,7 @@ def _energies(bodies, rows, course, work, account, s):
     total = (course.sums[s - 1, WORK] if s else account[1]) + done
     sums = course.sums[s]
     sums[KINETIC], sums[STRAIN], sums[WORK] = 0.5 * kinetic, strain, total
-    sums[ERROR] = 0.5 * kinetic + strain - account[0] - total
+    sums[ERROR] = 0.5 * kinetic + strain - account[0] - total + sums[LOST]
     return level + 0.5 * kinetic + abs(total)
 
 

@@ -16,6 +16,7 @@ from softway.kernels.slab.tables import (
     FIRST,
     ITERATIONS,
     LAST,
+    LOST,
     bodies_at,
     course_at,
     operator_at,
@@ -29,7 +30,7 @@ LEAST = 1e-9
 """Force of a row, relative to the greatest one, above which it stays closed."""
 CLOSE = 1e-14
 """Difference of velocities, relative to them, that is rounding."""
-ALLOWS, PREPARES = range(2)
+ALLOWS, PREPARES, RUBS = range(3)
 """Places of the optional parts."""
 UNIT = 0.5
 """Second moment of the end peaks: the part of the slab in which a force at its end acts."""
@@ -63,9 +64,9 @@ def answer(bodies_place, rows_place, r, lower, pivot, x, out):
 def slabs(places, parts, tolerance, account, wanted):
     """Compute up to ``wanted`` slabs from the first state of a course, and return how many were computed.
 
-    ``places`` (7,) are the addresses of the tables of bodies, rows, operator, course and work, and of those of optional
-    ``parts`` (2,): the addresses of a part that allows a solved slab, and of one that prepares a slab, or zero.
-    ``account`` (2,) are energy at the start of the march and external work, ``tolerance`` that of the iteration.
+    ``places`` (8,) are the addresses of the tables of bodies, rows, operator, course and work, and of those of optional
+    ``parts`` (3,): the addresses of parts that allow a solved slab, that prepare a slab, and for friction, or zero.
+    ``account`` (4,) are energy at the start of the march, external work, error and dissipated energy, ``tolerance`` that of the iteration.
     """
     bodies, rows, operator = bodies_at(places[0]), rows_at(places[1]), operator_at(places[2])
     course, work = course_at(places[3]), work_at(places[4])
@@ -74,6 +75,9 @@ def slabs(places, parts, tolerance, account, wanted):
         if parts[PREPARES] != 0:
             ask(parts[PREPARES], places, s)
         if not _slab(bodies, rows, operator, course, work, tolerance, s):
+            return s
+        course.sums[s, LOST] = account[3]
+        if parts[RUBS] != 0 and ask(parts[RUBS], places, s) == 0:
             return s
         if not audited(bodies, rows, course, work, account, s):
             return s
@@ -128,7 +132,7 @@ def _expect(bodies, rows, course, work, h, s):
         work.q[c] = rate if bodies.heavy[c] else 2.0 * rate
         end[c] = u[c] + h * (0.5 * (v[c] + rate) if bodies.heavy[c] else rate) + bodies.bent[c]
     slow = True
-    for r in range(len(rows.offset)):
+    for r in range(rows.count):
         slow = slow and rows.offset[r] + along(rows, r, end) >= -rows.allowed[r]
     return slow
 
@@ -152,16 +156,22 @@ def _iterated(bodies, rows, operator, course, work, h, s):
             load = bodies.load[c]
             mean = h * (0.5 * f0[c] + 0.5 * f1[c] - load)
             x[bodies.place[c]] = -(work.push[c] + mean) if bodies.heavy[c] else -h * UNIT * (f1[c] - load)
-    impulse = course.pressure[s + 1]
-    for k in range(len(operator.active)):
-        r = operator.active[k]
-        for e in range(rows.start[r], rows.start[r + 1]):
-            if bodies.place[rows.component[e]] >= 0:
-                x[bodies.place[rows.component[e]]] += rows.value[e] * impulse[r]
+    _press(bodies, rows, operator.active, course.pressure[s + 1], x)
+    _press(bodies, rows, operator.slip, course.pressure[s + 1], x)
     solve_band(operator.lower, operator.pivot, x[: len(operator.pivot)])
     for c in range(len(field)):
         field[c] = x[bodies.place[c]] if bodies.place[c] >= 0 else 0.0
     return _pressed(bodies, rows, operator, course, work, h, s)
+
+
+@called
+def _press(bodies, rows, which, impulse, x):
+    """Add the impulses of some rows to those of the unknowns."""
+    for k in range(len(which)):
+        r = which[k]
+        for e in range(rows.start[r], rows.start[r + 1]):
+            if bodies.place[rows.component[e]] >= 0:
+                x[bodies.place[rows.component[e]]] += rows.value[e] * impulse[r]
 
 
 @called
@@ -181,6 +191,8 @@ def _pressed(bodies, rows, operator, course, work, h, s):
         impulse[operator.active[a]] += total
         for c in range(len(field)):
             field[c] += operator.answer[a, c] * total
+    for j in range(len(operator.slip)):
+        impulse[operator.slip[j]] = operator.factor[j] * impulse[operator.partner[j]]
     for c in range(len(field)):
         work.q[c] += field[c]
     return greatest(field)
@@ -188,7 +200,9 @@ def _pressed(bodies, rows, operator, course, work, h, s):
 
 @called
 def _target(bodies, rows, course, h, s, r):
-    """Component of q along a row that closes its gap at the end of the slab."""
+    """Component of q along a row that closes its gap at the end of the slab, or along one that sticks."""
+    if r >= rows.count:
+        return 2.0 / h * rows.moved[r]
     gap = rows.offset[r]
     for e in range(rows.start[r], rows.start[r + 1]):
         c = rows.component[e]
@@ -201,11 +215,11 @@ def _stays(bodies, rows, operator, course, work, h, rounding, s):
     """True if closed rows certainly stay closed, and open rows open."""
     impulse, most = course.pressure[s + 1], 0.0
     for a in range(len(operator.active)):
-        most = max(most, impulse[operator.active[a]])
+        most = max(most, impulse[operator.active[a]] if operator.active[a] < rows.count else 0.0)
     for a in range(len(operator.active)):
-        if not impulse[operator.active[a]] > LEAST * most:
+        if operator.active[a] < rows.count and not impulse[operator.active[a]] > LEAST * most:
             return False
-    for r in range(len(rows.offset)):
+    for r in range(rows.count):
         if rows.move[r] and impulse[r] == 0.0:
             now = along(rows, r, work.q)
             slack = now - _target(bodies, rows, course, h, s, r)

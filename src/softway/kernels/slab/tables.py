@@ -39,12 +39,13 @@ class Bodies(NamedTuple):
 
 
 class Rows(NamedTuple):
-    """Contact rows (m,) whose directions never change: sparse rows ``start`` (m + 1,), ``component`` and ``value`` (z,),
+    """Contact rows whose directions never change, m normal ones, the ``count``, and then tangential ones (M in all): sparse rows ``start`` (m + 1,), ``component`` and ``value`` (z,),
     gaps at zero displacement at both ends of a slab, ``before`` and ``offset`` (m,), normal motion ``moved`` (m,) of the
     tools in between, ``contact`` (m,) and ``part`` (m,) of each, if unknowns ``move`` it (m,), and the overlap ``allowed`` (m,) of
     the free motion [m].
     """
 
+    count: int
     start: IntArray
     component: IntArray
     value: Array
@@ -59,7 +60,8 @@ class Rows(NamedTuple):
 
 class Operator(NamedTuple):
     """Factor ``lower`` (f, w + 1), ``pivot`` (f,) of the operator in a band, and the ``active`` rows (k,): the answers
-    ``answer`` (k, N) to a unit impulse on each, and the ``inverse`` (k, k) of their compliance.
+    ``answer`` (k, N) to a unit impulse on each, and the ``inverse`` (k, k) of their compliance.  Tangential rows
+    ``slip`` (j,) have ``factor`` (j,) times the impulse of their normal row ``partner`` (j,), in its answer as well.
     """
 
     lower: Array
@@ -67,11 +69,14 @@ class Operator(NamedTuple):
     active: IntArray
     answer: Array
     inverse: Array
+    slip: IntArray
+    partner: IntArray
+    factor: Array
 
 
 class Course(NamedTuple):
     """States of successive slabs: ``time`` (s + 1,); ``u``, ``v``, ``slope`` and ``force`` (s + 1, N), ``pressure``
-    (s + 1, m), ``energy`` (s + 1, parts); ``support`` (s, N), without a row where nothing is supported; ``sums``
+    (s + 1, M), ``energy`` (s + 1, parts); ``support`` (s, N), without a row where nothing is supported; ``sums``
     (s, SUMS) and, of the contacts, ``met`` (s, contacts, MET).
     """
 
@@ -125,6 +130,7 @@ bodies_at = table(
 )
 rows_at = table(
     "Rows",
+    count=WHOLE,
     start=WHOLES,
     component=WHOLES,
     value=NUMBERS,
@@ -136,7 +142,17 @@ rows_at = table(
     move=FLAGS,
     allowed=NUMBERS,
 )
-operator_at = table("Operator", lower=ROWS, pivot=NUMBERS, active=WHOLES, answer=ROWS, inverse=ROWS)
+operator_at = table(
+    "Operator",
+    lower=ROWS,
+    pivot=NUMBERS,
+    active=WHOLES,
+    answer=ROWS,
+    inverse=ROWS,
+    slip=WHOLES,
+    partner=WHOLES,
+    factor=NUMBERS,
+)
 course_at = table(
     "Course",
     time=NUMBERS,
@@ -155,12 +171,13 @@ work_at = table(
 )
 """The tables at addresses, for kernels."""
 
-KINETIC, STRAIN, WORK, ERROR, MOMENTUM, SPIN, UNCLOSED, COMPLEMENTARITY, POWER, ITERATIONS, FIRST, LAST = (
-    0, 1, 2, 3, 4, 7, 10, 11, 12, 13, 14, 15,
+KINETIC, STRAIN, WORK, ERROR, MOMENTUM, SPIN, UNCLOSED, COMPLEMENTARITY, POWER, ITERATIONS, FIRST, LAST, LOST = (
+    0, 1, 2, 3, 4, 7, 10, 11, 12, 13, 14, 15, 16,
 )  # fmt: skip
 """Columns of the sums of a slab: energies and works as in the ledger, momentum and spin (3 each), momentum error,
-complementarity and power of the certificate, number of iterations, and the first and the last change [m/s]."""
-SUMS = 16
-FORCE, GAP, CLOSED_POWER, COUNT = range(4)
-"""Columns of a contact: force, least gap, power residual, and number of closed rows."""
-MET = 4
+complementarity and power of the certificate, number of iterations, the first and the last change [m/s], and the
+energy dissipated so far."""
+SUMS = 17
+FORCE, GAP, CLOSED_POWER, COUNT, FORCE_T = range(5)
+"""Columns of a contact: force, least gap, power residual, number of closed rows, and tangential force."""
+MET = 5

@@ -20,6 +20,7 @@ from softway.kernels.slab.tables import Bodies, Operator, Rows
 from softway.marching.rules.equilibrated import EndForceContact, Equilibrated
 from softway.marching.slab.rows.apart import MetSurfaces, may_stay_apart, met_surfaces, surfaces_of
 from softway.marching.slab.rows.driven import supports_move_mass, tools_keep_direction
+from softway.marching.slab.rows.friction import HeldRows, every_row, held_rows, proportional
 from softway.marching.slab.slab_step import Stepper
 from softway.marching.state.march_state import Settings
 from softway.marching.state.model_state import ModelState
@@ -80,6 +81,7 @@ class SlabTables:
     operator: Operator
     surfaces: Surfaces | None
     contact_rows: ContactRows
+    held: HeldRows
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -115,36 +117,64 @@ class CompiledModel:
         met = met_surfaces(self.model, self.surfaces, now, span)
         if met is None:
             return None
-        closed = now.pressure > 0.0
-        key = (closed.tobytes() + met.rows.near.tobytes() + met.rows.gradient.indices.tobytes()).hex() + span.hex()
+        held = held_rows(self.model, met.rows, now)
+        if held is None:
+            return None
+        key = (held.key + met.rows.near.tobytes() + met.rows.gradient.indices.tobytes()).hex() + span.hex()
         if key not in self.last:
             self.last.clear()
-            self.last[key] = self._made(met, closed, span)
+            self.last[key] = self._made(met, held, span)
         return self.last[key]
 
-    def _made(self, met: MetSurfaces, closed: BoolArray, span: float) -> SlabTables | None:
-        """Tables of closed rows (m,)."""
+    def _made(self, met: MetSurfaces, held: HeldRows, span: float) -> SlabTables | None:
+        """Tables of rows that are held."""
         found = self.factor(span)
         if found is None:
             return None
-        rows, active, (lower, pivot) = rows_of(self.model, self.settings, met.rows), np.flatnonzero(closed), found
-        answers, work = np.zeros((len(active), len(self.bodies.heavy))), np.empty(len(pivot))
-        tables = packed(self.bodies), packed(rows)
-        for row, out in zip(active, answers, strict=True):
-            answer(*(each.ctypes.data for each in tables), row, lower, pivot, work, out)
-        compliance = answers @ met.rows.gradient[active].T
-        inverse = np.zeros((len(active), len(active)))
-        if len(active):
-            if not np.linalg.cond(compliance) * np.finfo(float).eps < INVERTED:
+        rows, (lower, pivot) = rows_of(self.model, self.settings, met.rows), found
+        every = every_row(met.rows)
+        answers = self._answers(rows, held.active, found)
+        slips = self._answers(rows, held.slip, found)
+        for each, partner, factor in zip(slips, held.partner, held.factor, strict=True):
+            answers[held.active == partner] += factor * each
+        compliance = answers @ every[held.active].T
+        inverse = np.zeros((len(held.active), len(held.active)))
+        if len(held.active):
+            if not np.linalg.cond(compliance) * np.finfo(float).eps < INVERTED or not _positive(compliance):
                 return None
             inverse = np.linalg.inv(compliance.T)
+        operator = Operator(
+            lower=lower,
+            pivot=pivot,
+            active=held.active,
+            answer=answers,
+            inverse=inverse,
+            slip=held.slip,
+            partner=held.partner,
+            factor=held.factor,
+        )
+        closed = np.isin(np.arange(len(met.rows.node)), held.active)
         return SlabTables(
             bodies=self.bodies._replace(group=_whole(body_groups(self.model, (met.rows, closed)))),
             rows=rows,
-            operator=Operator(lower=lower, pivot=pivot, active=active, answer=answers, inverse=inverse),
+            operator=operator,
             surfaces=met.table,
             contact_rows=met.rows,
+            held=held,
         )
+
+    def _answers(self, rows: Rows, which: IntArray, factors: tuple[Array, Array]) -> Array:
+        """Answers (k, N) to unit impulses on some rows (k,)."""
+        out, work = np.zeros((len(which), len(self.bodies.heavy))), np.empty(len(factors[1]))
+        tables = packed(self.bodies), packed(rows)
+        for row, each in zip(which, out, strict=True):
+            answer(*(table.ctypes.data for table in tables), row, *factors, work, each)
+        return out
+
+
+def _positive(matrix: Array) -> bool:
+    """True if the symmetric part of a matrix (k, k) is positive definite: then no other forces hold the rows."""
+    return bool(np.linalg.eigvalsh(matrix + matrix.T).min() > 0.0)
 
 
 def served(stepper: Stepper, settings: Settings) -> bool:
@@ -169,7 +199,7 @@ def _fixed(model: Model) -> bool:
     plain = isinstance(model.dofs, NodalDofs) and isinstance(model.space, LocalSpace)
     still = not model.loads.steady or np.array_equal(model.load, model.load_before)
     known = tools_keep_direction(model.contacts) and may_stay_apart(model.contacts)
-    met = known and model.friction.frictionless and model.contacts.clearance is None and model.inert
+    met = known and proportional(model) and model.contacts.clearance is None and model.inert
     return bool(alone and plain and still and met and model.linear)
 
 
@@ -204,9 +234,7 @@ def compiled_model(stepper: Stepper, settings: Settings, span: float) -> Compile
 
 def _operator(model: Model, settings: Settings, span: float) -> sp.csr_array:
     """Operator (f, f) of slabs of the length ``span`` [s]."""
-    return sp.csr_array(
-        model.inertia_and_stiffness(np.zeros(model.shape), 0.5 * span**2 * moments(settings.weight)[1])
-    )
+    return sp.csr_array(model.inertia_and_stiffness(np.zeros(model.shape), 0.5 * span**2 * moments(settings.weight)[1]))
 
 
 def bodies_of(model: Model, place: IntArray) -> Bodies | None:
@@ -251,15 +279,16 @@ def bodies_of(model: Model, place: IntArray) -> Bodies | None:
 
 def rows_of(model: Model, settings: Settings, rows: ContactRows) -> Rows:
     """Arrays of contact rows."""
-    gradient = sp.csr_array(rows.gradient, copy=True)
-    gradient.sort_indices()
+    every, m = every_row(rows), len(rows.node)
+    offset = np.concatenate([rows.offset, np.zeros(every.shape[0] - m)])
     return Rows(
-        start=_whole(gradient.indptr),
-        component=_whole(gradient.indices),
-        value=gradient.data.astype(float),
-        before=np.array(rows.offset, float),
-        offset=np.array(rows.offset, float),
-        moved=np.zeros(len(rows.offset)),
+        count=m,
+        start=_whole(every.indptr),
+        component=_whole(every.indices),
+        value=every.data.astype(float),
+        before=offset.copy(),
+        offset=offset,
+        moved=np.zeros(len(offset)),
         contact=_whole(rows.contact),
         part=_whole(model.part_of[rows.node]),
         move=rows.reachable(model.dofs),

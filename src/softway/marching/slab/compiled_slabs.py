@@ -3,14 +3,17 @@
 import numpy as np
 
 from softway.arrays import Array
+from softway.contact.contact_rows import ContactRows
 from softway.kernels.jit.by_address import packed
 from softway.kernels.slab.apart import apart
 from softway.kernels.slab.driven import driven
+from softway.kernels.slab.friction import rubbing
 from softway.kernels.slab.march import slabs
 from softway.kernels.slab.tables import ITERATIONS, MET, SUMS, Bodies, Course, Rows, Work
 from softway.kernels.slab.works import WORKS
 from softway.marching.slab.compiled_model import CompiledModel
 from softway.marching.slab.rows.driven import drives
+from softway.marching.slab.rows.friction import friction_table
 from softway.marching.slab.slab_batch import SlabBatch, contractions
 from softway.marching.start.knots import length_at, slab_end
 from softway.marching.state.march_state import MarchState
@@ -45,16 +48,18 @@ def next_batch(
     tables = compiled.tables(now, span) if len(times) > 1 else None
     if tables is None:
         return None
-    course = new_course(model, now, len(times) - 1, times)
+    course = new_course(model, now, tables.contact_rows, times)
     account = march_state.account
-    start = account.energy_start - account.dissipation - account.remeshing
-    told = np.array([start, account.work_external, account.energy_error])
+    start = account.energy_start - account.remeshing
+    told = np.array([start, account.work_external, account.energy_error, account.dissipation])
     work, surfaces = new_work(tables.bodies, tables.rows), tables.surfaces
     changing = drives(model, tables.contact_rows, times)
-    given = (tables.bodies, tables.rows, tables.operator, course, work, surfaces, changing)
+    rubs = friction_table(model, tables.contact_rows, tables.held, march_state)
+    given = (tables.bodies, tables.rows, tables.operator, course, work, surfaces, changing, rubs)
     arrays = [None if each is None else packed(each) for each in given]
     places = np.array([0 if each is None else each.ctypes.data for each in arrays])
-    parts = np.array([0 if surfaces is None else apart().address, 0 if changing is None else driven().address])
+    optional = ((surfaces, apart), (changing, driven), (rubs, rubbing))
+    parts = np.array([0 if own is None else part().address for own, part in optional])
     count = slabs(places, parts, compiled.tolerance, told, len(times) - 1)
     if not count:
         return None
@@ -89,9 +94,10 @@ def _times(compiled: CompiledModel, march_state: MarchState, span: float) -> Arr
     return np.array(times)
 
 
-def new_course(model: Model, now: ModelState, wanted: int, times: Array) -> Course:
-    """Room for states of so many slabs, the first one given."""
-    size, m = now.start.displacement.size, len(now.pressure)
+def new_course(model: Model, now: ModelState, rows: ContactRows, times: Array) -> Course:
+    """Room for states at ``times`` (s + 1,), the first one given."""
+    size, wanted = now.start.displacement.size, len(times) - 1
+    pressure = np.concatenate([now.pressure, rows.shear.flat(now.traction).ravel()])
 
     def room(first: Array, length: int) -> Array:
         out = np.empty((wanted + 1, length))
@@ -105,11 +111,11 @@ def new_course(model: Model, now: ModelState, wanted: int, times: Array) -> Cour
         v=room(now.start.velocity, size),
         slope=room(now.acceleration, size),
         force=room(now.start.force, size),
-        pressure=room(now.pressure, m),
+        pressure=room(pressure, len(pressure)),
         energy=room(now.start.energy, len(now.start.energy)),
         support=np.empty((wanted if supported else 0, size)),
         sums=np.empty((wanted, SUMS)),
-        met=np.empty((wanted, len(model.contacts.labels), MET)),
+        met=np.zeros((wanted, len(model.contacts.labels), MET)),
     )
 
 

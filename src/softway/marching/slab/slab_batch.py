@@ -7,9 +7,10 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.contact.contact_rows import ContactRows
-from softway.kernels.slab.tables import ERROR, FIRST, LAST, WORK, Course
+from softway.kernels.slab.tables import ERROR, FIRST, LAST, LOST, WORK, Course
 from softway.marching.slab.rows.driven import rows_at
-from softway.marching.state.march_state import MarchState
+from softway.marching.slab.rows.friction import slip_velocity
+from softway.marching.state.march_state import EnergyAccount, MarchState
 from softway.marching.state.model_state import ModelState, split_states
 from softway.mechanisms.step import BodyState
 from softway.model.model import Model
@@ -77,16 +78,28 @@ class SlabBatch:
         return replace(
             begun,
             state=self._state(count),
-            account=replace(begun.account, work_external=float(sums[WORK]), energy_error=float(sums[ERROR])),
+            account=self._account(sums),
             step_history=history,
             memory=self.memory_after(count).bare(),
             slabs=begun.slabs + count,
         )
 
+    def _account(self, sums: Array) -> EnergyAccount:
+        """Energy account after a slab with these sums."""
+        return replace(
+            self.begun.account,
+            work_external=float(sums[WORK]),
+            energy_error=float(sums[ERROR]),
+            dissipation=float(sums[LOST]),
+        )
+
     def _state(self, count: int) -> ModelState:
         """State of the model after so many slabs."""
         course, shape, first = self.course, self.model.shape, self.begun.state
-        time = float(self.course.time[count])
+        before, time = (float(course.time[k]) for k in (count - 1, count))
+        m, rows, u0 = len(first.pressure), self.rows, course.u[count - 1]
+        pressure, shear = course.pressure[count][:m], course.pressure[count][m:]
+        moved = (course.u[count] - u0).reshape(shape)
         start = SlabStart(
             displacement=course.u[count].reshape(shape),
             velocity=course.v[count].reshape(shape),
@@ -99,12 +112,13 @@ class SlabBatch:
             time=time,
             start=start,
             acceleration=course.slope[count].reshape(shape),
-            closed=course.pressure[count] > 0.0,
-            pressure=course.pressure[count],
-            traction=np.zeros_like(first.traction),
-            sliding=np.zeros_like(first.sliding),
+            closed=pressure > 0.0,
+            pressure=pressure,
+            traction=rows.shear.vectors(rows.shear.components(shear)) if len(shear) else np.zeros_like(first.traction),
+            sliding=first.sliding if len(shear) else np.zeros_like(first.sliding),
+            slip=slip_velocity(self.model, rows, moved, (before, time)),
             rows=rows_at(self.model, self.rows, time) if self.model.contacts.paired else None,
-            span=float(course.time[count] - course.time[count - 1]),
+            span=time - before,
         )
 
 

@@ -124,6 +124,22 @@ def shaken() -> sw.Scene:
     return replace(scene, bodies={**scene.bodies, "block": body}, contacts=(contact,))
 
 
+def rubbing(friction: sw.laws.Coulomb | sw.laws.StaticKinetic, pull: float, speed: float) -> sw.Scene:
+    """A block that falls on a rough floor, under its weight and a ``pull`` to the right [m/s^2]."""
+    body = sw.Solid(
+        mesh=sw.meshes.Rectangle(size=(1.0, 0.5), cells=(4, 3)),
+        material=sw.LinearElastic(E=1e3, nu=0.3),
+        density=1.0,
+        velocity=sw.bodies.Uniform(value=(speed, -0.1)),
+    )
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, -0.002), normal=(0.0, 1.0)))
+    return sw.Scene(
+        bodies={"block": body, "floor": floor},
+        contacts=(sw.Contact(between=("block.bottom", "floor"), friction=friction),),
+        loads=(sw.Gravity(acceleration=(pull, -9.81)),),
+    )
+
+
 CASES = {
     "two bars": (bars(2), 0.05, 200),
     "many bars": (bars(40), 0.0125, 240),
@@ -135,6 +151,13 @@ CASES = {
     "moving floor": (rising(), 0.004, 160),
     "loaded": (loaded(), 0.004, 160),
     "shaken": (shaken(), 0.004, 160),
+    "sticks": (rubbing(sw.Coulomb(mu=0.8), 1.0, 0.0), 0.001, 200),
+    "slips": (rubbing(sw.laws.StaticKinetic(mu_s=0.4, mu_k=0.2), 6.0, 0.2), 0.001, 200),
+    "on a belt": (
+        moving(rubbing(sw.Coulomb(mu=0.3), 0.0, 0.0), "floor", sw.bodies.Translation(velocity=(0.5, 0.02))),
+        0.001,
+        200,
+    ),
     "side by side": (neighbours(), 0.004, 100),  # up to the contact of both
 }
 
@@ -158,21 +181,22 @@ def test_both_ways_agree(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(SLABS, "compiled_model", lambda *of: None)
     slow = marched(model, step, count)
     assert compiled(fast) > (0.3 if name == "all bars" else 0.5) * count and compiled(slow) == 0
-    assert {e.kind for s in slow for e in s.events} == {"touch", "release"}
+    assert {e.kind for s in slow for e in s.events} >= {"touch", "release"}
     energy = max(s.ledger.energy_kinetic + s.ledger.energy_strain for s in slow)
     push = max(np.abs(s.march_state.state.start.force).max() for s in slow)
+    rough = any(s.ledger.dissipation > 0.0 for s in slow)  # instants of stick and slip follow from rounded forces
+    near = (1e-8 if rough else 1e-11) * step
     for one, other in zip(fast, slow, strict=True):
-        assert one.slab == other.slab and one.report.iterations == other.report.iterations
+        assert one.slab.end == (pytest.approx(other.slab.end, rel=0, abs=near) if rough else other.slab.end)
+        assert one.report.iterations == other.report.iterations
         assert (one.report.pairs, one.report.factorisations) == (other.report.pairs, other.report.factorisations)
         assert [(e.kind, e.node, e.bodies) for e in one.events] == [(e.kind, e.node, e.bodies) for e in other.events]
-        np.testing.assert_allclose(
-            [e.time for e in one.events], [e.time for e in other.events], rtol=0, atol=1e-11 * step
-        )
+        np.testing.assert_allclose([e.time for e in one.events], [e.time for e in other.events], rtol=0, atol=near)
         for name, u in other.after.displacement.items():
             np.testing.assert_allclose(one.after.displacement[name], u, rtol=0, atol=1e-12)
             np.testing.assert_allclose(one.after.velocity[name], other.after.velocity[name], rtol=0, atol=1e-11)
             np.testing.assert_allclose(one.reactions[name], other.reactions[name], rtol=0, atol=1e-10 * push)
-        agrees(one, other, energy)
+        agrees(one, other, (10.0 if rough else 1.0) * energy)
         assert one.march_state.memory.taken == other.march_state.memory.taken
 
 
@@ -186,13 +210,16 @@ def agrees(one: Step, other: Step, energy: float) -> None:
         mine = one.ledger.contacts[label]
         assert mine.count == found.count and mine.min_gap == pytest.approx(found.min_gap, abs=1e-12)
         assert mine.force_n == pytest.approx(found.force_n, rel=1e-10, abs=1e-10)
+        assert mine.force_t == pytest.approx(found.force_t, rel=1e-10, abs=1e-10)
         assert mine.power_residual == pytest.approx(found.power_residual, abs=1e-12 * energy)
     assert one.certificate.min_gap == pytest.approx(other.certificate.min_gap, abs=1e-12)
     assert one.certificate.momentum_error == pytest.approx(other.certificate.momentum_error, abs=1e-11)
     assert one.certificate.energy_error == pytest.approx(other.certificate.energy_error, abs=1e-12 * energy)
 
 
-@pytest.mark.parametrize("name", ["two bars", "bar on bar", "bars and moving wall", "moving floor", "shaken"])
+@pytest.mark.parametrize(
+    "name", ["two bars", "bar on bar", "bars and moving wall", "moving floor", "shaken", "slips", "on a belt"]
+)
 def test_a_march_from_any_slab_has_the_same_bits(name: str) -> None:
     """Also in the middle of a compiled call, and just before and after a touch."""
     scene, step, _ = CASES[name]
@@ -229,7 +256,7 @@ def test_other_marches_are_not_compiled(what: str) -> None:
     body, floor = scene.bodies["disc"], scene.bodies["floor"]
     if what == "nonlinear":
         body = sw.Solid(mesh=body.mesh, material=sw.NeoHookean(E=1e3, nu=0.3), density=1.0, velocity=body.velocity)
-    friction = sw.Coulomb(mu=0.3) if what == "friction" else None
+    friction = sw.laws.Tresca(shear=1.0) if what == "friction" else None
     contact = sw.Contact(between=("disc.boundary", "floor"), **({"friction": friction} if friction else {}))
     if what == "short":
         until = 0.796  # of 199 slabs

@@ -43,20 +43,21 @@ def drives(model: Model, rows: ContactRows, times: Array) -> Drives | None:
 
     ``rows`` are those at t = 0.  None if everything rests.
     """
-    numbers = _tools(model.contacts)
+    numbers, shear = _tools(model.contacts), rows.shear.tangents
     if model.loads.steady and not numbers and not model.driven:
         return None
     loads = () if model.loads.steady else model.loads.fields
     ramps, instants = [ramp for ramp, _ in loads], times.tolist()
+    tool = _of_rows(model.contacts, numbers)
     slabs = list(zip(instants[:-1], instants[1:], strict=True))
     component = np.flatnonzero(np.any([mask.ravel() for _, mask in model.driven], axis=0)) if model.driven else []
     return Drives(
         field=np.array([field.ravel() for _, field in loads]).reshape(len(loads), model.points.size),
         load_at=np.array([[ramp.at(t) for ramp in ramps] for t in instants]),
         load_mean=np.array([[ramp.mean(*slab) for ramp in ramps] for slab in slabs]),
-        tool=_of_rows(model.contacts, numbers),
-        offset=np.array(rows.offset, float),
-        normal=np.array(rows.normal, float),
+        tool=np.concatenate([tool, np.repeat(tool, shear.shape[1])]),
+        offset=np.concatenate([rows.offset, np.zeros(shear.shape[0] * shear.shape[1])]),
+        normal=np.concatenate([rows.normal, shear.reshape(-1, model.shape[1])]),
         shift=_shifts(model, numbers, instants),
         component=np.array(component, np.int64),
         rate=np.array([model.prescribed(t).ravel()[component] if model.driven else [] for t in instants]),
@@ -92,6 +93,15 @@ def rows_at(model: Model, rows: ContactRows, time: float) -> ContactRows:
     tool, shift = _of_rows(model.contacts, numbers), _shifts(model, numbers, [time])[0]
     moved = np.where(tool >= 0, np.einsum("mi,mi->m", rows.normal, shift[tool]), 0.0)
     return replace(rows, offset=rows.offset - moved)
+
+
+def tool_motion(model: Model, times: tuple[float, float]) -> Array:
+    """Motion (m, d) of the tool of each row between two times [m]."""
+    numbers = _tools(model.contacts)
+    if not numbers:
+        return np.zeros((len(model.contacts.node), model.shape[1]))
+    tool, (first, last) = _of_rows(model.contacts, numbers), _shifts(model, numbers, list(times))
+    return np.asarray(np.where((tool >= 0)[:, None], (last - first)[tool], 0.0))
 
 
 def _tools(contacts: ContactSet) -> list[int]:
