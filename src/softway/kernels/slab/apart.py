@@ -20,10 +20,10 @@ class Surfaces(NamedTuple):
     relative to that of the nodes, ``magnified`` (k,).
 
     ``one`` and ``other`` (p,) are pairs that may touch, with the ``distance`` (p,) of the search in a slab, of which
-    ``raised`` (p,) is that at which they touch [m].  Pairs that are ``near`` (p,) have a row: they certainly stay within
-    the distance, all others beyond it.  Work space are middles and motions of the boxes ``centre`` and
-    ``shift`` (k, d), their ``half`` widths (k, d), the ``spread`` (d,) of the motions, and how far the nodes ``strayed``
-    (k,) from the expected end.
+    ``raised`` (p,) is that at which they touch [m].  Pairs that are ``near`` (p,) have a row: they certainly stay
+    within the distance, all others beyond it.  Work space are middles and motions of the boxes, ``centre`` and
+    ``shift`` (k, d), their ``half`` widths (k, d), the ``spread`` (d,) of the motions, and how far the nodes
+    ``strayed`` (k,) from the expected end.
     """
 
     start: IntArray
@@ -64,7 +64,9 @@ surfaces_at = table(
 
 @cache
 def apart() -> Any:
-    """Part that allows slabs in which no surfaces come near each other, and none of those near go away; their table follows those of the bodies."""
+    """Part that allows slabs in which no surfaces come near each other, and none of those near go away; their table is
+    the sixth.
+    """
     return asked(_apart)
 
 

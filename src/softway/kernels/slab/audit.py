@@ -39,8 +39,8 @@ def closes(bodies, rows, course, work, unit, s):
         work.push[c] = 0.5 * (f0[c] + f1[c])
     loads = (bodies.load_before, bodies.load)
     part_works(bodies.first, d, bodies.heavy, loads, u0, u1, (f0, f1), work.push, work.works)
-    rough = len(rows.offset) > rows.count
-    for r in range(rows.count):
+    rough = len(rows.offset) > rows.normals
+    for r in range(rows.normals):
         if course.pressure[s, r] > 0.0 or course.pressure[s + 1, r] > 0.0:
             work.group[bodies.group[rows.part[r]], 2] = 1.0
     for part in range(len(bodies.floor)):
@@ -53,7 +53,7 @@ def closes(bodies, rows, course, work, unit, s):
         g = bodies.group[part]
         work.group[g, 0] += V1 - V0 - found[MOVING] - (found[ENDS] if flies else found[STILL])
         work.group[g, 1] += SUMS * level + bodies.floor[part]
-    for r in range(rows.count):
+    for r in range(rows.normals):
         g = bodies.group[rows.part[r]]
         work.group[g, 1] += blur * (abs(course.pressure[s, r]) + abs(unit * course.pressure[s + 1, r]))
         force = 0.5 * (course.pressure[s, r] + unit * course.pressure[s + 1, r])
@@ -103,9 +103,9 @@ def _touching(rows, course, work, s):
     """Sums over the contacts; the least gap.  ``work.row`` are the mean forces of the rows."""
     least = np.inf
     course.sums[s, COMPLEMENTARITY] = course.sums[s, POWER] = 0.0
-    for r in range(rows.count, len(rows.offset)):
+    for r in range(rows.normals, len(rows.offset)):
         work.row[r] = 0.5 * course.pressure[s, r] + 0.5 * course.pressure[s + 1, r]
-    for r in range(rows.count):
+    for r in range(rows.normals):
         met, p0, p1 = course.met[s, rows.contact[r]], course.pressure[s, r], course.pressure[s + 1, r]
         gap = rows.offset[r] + along(rows, r, course.u[s + 1])
         before = rows.before[r] + along(rows, r, course.u[s]) if p0 > 0.0 else 0.0

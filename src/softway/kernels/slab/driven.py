@@ -13,9 +13,10 @@ class Drives(NamedTuple):
     """Loads and motions over successive slabs s.
 
     The load is the sum of ``field`` (k, N) with factors ``load_at`` (s + 1, k) at the ends of the slabs and
-    ``load_mean`` (s, k) over them.  Row r is that of the tool of the number ``tool`` (m,), or -1, with the gap
-    ``offset`` (m,) at t = 0 and the ``normal`` (m, d); the tools have moved by ``shift`` (s + 1, tools, d) since then.  Supports move the ``component``
-    (j,) with the velocities ``rate`` (s + 1, j), and by ``bent`` (s, j) beyond the way of linear velocities.
+    ``load_mean`` (s, k) over them.  Row r is that of the tool of the number ``tool`` (M,), or -1, with the gap
+    ``offset`` (M,) at t = 0 and the direction ``normal`` (M, d); the tools have moved by ``shift`` (s + 1, tools, d)
+    since then.  Supports move the ``component`` (j,) with the velocities ``rate`` (s + 1, j), and by ``bent`` (s, j)
+    beyond the way of linear velocities.
     """
 
     field: Array

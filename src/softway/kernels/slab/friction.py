@@ -71,10 +71,10 @@ def _rubbing(places, s):
 def _stick(rows, friction, course, s):
     """True if rows that stick are certainly below their limit at the end of the slab."""
     k = friction.tangents
-    for r in range(rows.count):
+    for r in range(rows.normals):
         if friction.sticks[r]:
             total = 0.0
-            for e in range(rows.count + r * k, rows.count + (r + 1) * k):
+            for e in range(rows.normals + r * k, rows.normals + (r + 1) * k):
                 total += course.pressure[s + 1, e] ** 2
             if not total**0.5 <= (1.0 - CERTAIN) * friction.limit[r] * course.pressure[s + 1, r]:
                 return False
@@ -100,7 +100,7 @@ def _go_on(rows, operator, friction, course, work, h, s):
         r = operator.slip[j]
         contact, weight = rows.contact[operator.partner[j]], -course.pressure[s, r]
         one = other = -rows.moved[r]
-        for e in range(friction.start[r - rows.count], friction.start[r - rows.count + 1]):
+        for e in range(friction.start[r - rows.normals], friction.start[r - rows.normals + 1]):
             one += h * friction.value[e] * course.v[s, friction.component[e]]
             other += h * friction.value[e] * work.q[friction.component[e]]
         friction.power[contact, 0] += weight * one
@@ -118,8 +118,8 @@ def _heated(bodies, rows, friction, course, s):
     k, d = friction.tangents, bodies.dimension
     friction.heat[:] = 0.0
     friction.power[:] = 0.0
-    for r in range(rows.count):
-        for e in range(rows.count + r * k, rows.count + (r + 1) * k):
+    for r in range(rows.normals):
+        for e in range(rows.normals + r * k, rows.normals + (r + 1) * k):
             force = 0.5 * course.pressure[s, e] + 0.5 * course.pressure[s + 1, e]
             if force != 0.0:
                 slip = along(rows, e, course.u[s + 1]) - along(rows, e, course.u[s]) - rows.moved[e]

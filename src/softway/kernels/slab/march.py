@@ -66,7 +66,8 @@ def slabs(places, parts, tolerance, account, wanted):
 
     ``places`` (8,) are the addresses of the tables of bodies, rows, operator, course and work, and of those of optional
     ``parts`` (3,): the addresses of parts that allow a solved slab, that prepare a slab, and for friction, or zero.
-    ``account`` (4,) are energy at the start of the march, external work, error and dissipated energy, ``tolerance`` that of the iteration.
+    ``account`` (4,) are energy at the start of the march, external work, error and dissipated energy, ``tolerance``
+    is that of the iteration.
     """
     bodies, rows, operator = bodies_at(places[0]), rows_at(places[1]), operator_at(places[2])
     course, work = course_at(places[3]), work_at(places[4])
@@ -132,7 +133,7 @@ def _expect(bodies, rows, course, work, h, s):
         work.q[c] = rate if bodies.heavy[c] else 2.0 * rate
         end[c] = u[c] + h * (0.5 * (v[c] + rate) if bodies.heavy[c] else rate) + bodies.bent[c]
     slow = True
-    for r in range(rows.count):
+    for r in range(rows.normals):
         slow = slow and rows.offset[r] + along(rows, r, end) >= -rows.allowed[r]
     return slow
 
@@ -201,7 +202,7 @@ def _pressed(bodies, rows, operator, course, work, h, s):
 @called
 def _target(bodies, rows, course, h, s, r):
     """Component of q along a row that closes its gap at the end of the slab, or along one that sticks."""
-    if r >= rows.count:
+    if r >= rows.normals:
         return 2.0 / h * rows.moved[r]
     gap = rows.offset[r]
     for e in range(rows.start[r], rows.start[r + 1]):
@@ -215,11 +216,11 @@ def _stays(bodies, rows, operator, course, work, h, rounding, s):
     """True if closed rows certainly stay closed, and open rows open."""
     impulse, most = course.pressure[s + 1], 0.0
     for a in range(len(operator.active)):
-        most = max(most, impulse[operator.active[a]] if operator.active[a] < rows.count else 0.0)
+        most = max(most, impulse[operator.active[a]] if operator.active[a] < rows.normals else 0.0)
     for a in range(len(operator.active)):
-        if operator.active[a] < rows.count and not impulse[operator.active[a]] > LEAST * most:
+        if operator.active[a] < rows.normals and not impulse[operator.active[a]] > LEAST * most:
             return False
-    for r in range(rows.count):
+    for r in range(rows.normals):
         if rows.move[r] and impulse[r] == 0.0:
             now = along(rows, r, work.q)
             slack = now - _target(bodies, rows, course, h, s, r)

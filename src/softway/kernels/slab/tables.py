@@ -39,13 +39,15 @@ class Bodies(NamedTuple):
 
 
 class Rows(NamedTuple):
-    """Contact rows whose directions never change, m normal ones, the ``count``, and then tangential ones (M in all): sparse rows ``start`` (m + 1,), ``component`` and ``value`` (z,),
-    gaps at zero displacement at both ends of a slab, ``before`` and ``offset`` (m,), normal motion ``moved`` (m,) of the
-    tools in between, ``contact`` (m,) and ``part`` (m,) of each, if unknowns ``move`` it (m,), and the overlap ``allowed`` (m,) of
-    the free motion [m].
+    """Contact rows (M,) whose directions never change, m ``normals`` and then with friction the tangential ones.
+
+    Sparse rows ``start`` (M + 1,), ``component`` and ``value`` (z,); gaps at zero displacement at both ends of a slab,
+    ``before`` and ``offset`` (M,), and the motion ``moved`` (M,) of the tools along the rows in between; of the normal
+    rows ``contact`` (m,) and ``part`` (m,), if unknowns ``move`` them (m,), and the overlap ``allowed`` (m,) of the free
+    motion [m].
     """
 
-    count: int
+    normals: int
     start: IntArray
     component: IntArray
     value: Array
@@ -130,7 +132,7 @@ bodies_at = table(
 )
 rows_at = table(
     "Rows",
-    count=WHOLE,
+    normals=WHOLE,
     start=WHOLES,
     component=WHOLES,
     value=NUMBERS,

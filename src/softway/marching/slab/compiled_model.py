@@ -4,9 +4,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.csgraph import reverse_cuthill_mckee
 
-from softway.arrays import Array, BoolArray, IntArray
+from softway.arrays import Array, IntArray
 from softway.bodies.assembled.vector_space import LocalSpace
 from softway.bodies.dof_map import NodalDofs
 from softway.bodies.elements.section import Axisymmetric
@@ -15,9 +14,10 @@ from softway.bodies.internal_force.slab_average import Weighted
 from softway.contact.contact_rows import ContactRows
 from softway.kernels.jit.by_address import packed
 from softway.kernels.slab.apart import Surfaces
-from softway.kernels.slab.march import answer, factor
+from softway.kernels.slab.march import answer
 from softway.kernels.slab.tables import Bodies, Operator, Rows
 from softway.marching.rules.equilibrated import EndForceContact, Equilibrated
+from softway.marching.slab.band import BandOrder, band_order, banded_factor
 from softway.marching.slab.rows.apart import MetSurfaces, may_stay_apart, met_surfaces, surfaces_of
 from softway.marching.slab.rows.driven import supports_move_mass, tools_keep_direction
 from softway.marching.slab.rows.friction import HeldRows, every_row, held_rows, proportional
@@ -34,42 +34,10 @@ SLABS = 200
 """Number of slabs of a march from which compiled ones pay: the others take less than the compilation of the kernels,
 and half a second where these are compiled.
 """
-LARGEST = 3e5
-"""Greatest number of entries of the band of a factor: beyond it, sparse factors are faster."""
 TRANSLATED = 1e-12
 """Force of a translation, relative to the stiffness, that is rounding."""
 INVERTED = 1e-6
 """Greatest error of the inverse compliance of the closed rows: rows that depend on each other have none."""
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class BandOrder:
-    """Places (f,) of the unknowns in a band with ``width`` diagonals, after the ordering of Cuthill and McKee."""
-
-    place: IntArray
-    width: int
-
-
-def band_order(matrix: sp.csr_array) -> BandOrder | None:
-    """Order of a symmetric matrix (f, f) in a band; None if it is empty, or the band too large."""
-    if not matrix.shape[0]:
-        return None
-    order = np.asarray(reverse_cuthill_mckee(matrix, symmetric_mode=True), np.int64)
-    place = np.empty(len(order), np.int64)
-    place[order] = np.arange(len(order))
-    i, j = sp.coo_array(matrix).coords
-    width = int(np.abs(place[i] - place[j]).max(initial=0)) + 1
-    return None if width * len(order) > LARGEST else BandOrder(place, width)
-
-
-def banded_factor(matrix: sp.csr_array, order: BandOrder) -> tuple[Array, Array] | None:
-    """Factor in a band: ``lower`` (f, w + 1) and ``pivot`` (f,); None if the matrix is not positive definite."""
-    entries = sp.coo_array(matrix)
-    i, j = (order.place[c] for c in entries.coords)
-    below, shape = i >= j, (matrix.shape[0], order.width)
-    band, lower, pivot = np.zeros(shape), np.zeros(shape), np.zeros(shape[0])
-    band[i[below], (i - j)[below]] = entries.data[below]
-    return (lower, pivot) if factor(band, lower, pivot) else None
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -135,8 +103,8 @@ class CompiledModel:
         every = every_row(met.rows)
         answers = self._answers(rows, held.active, found)
         slips = self._answers(rows, held.slip, found)
-        for each, partner, factor in zip(slips, held.partner, held.factor, strict=True):
-            answers[held.active == partner] += factor * each
+        for each, partner, ratio in zip(slips, held.partner, held.factor, strict=True):
+            answers[held.active == partner] += ratio * each
         compliance = answers @ every[held.active].T
         inverse = np.zeros((len(held.active), len(held.active)))
         if len(held.active):
@@ -282,7 +250,7 @@ def rows_of(model: Model, settings: Settings, rows: ContactRows) -> Rows:
     every, m = every_row(rows), len(rows.node)
     offset = np.concatenate([rows.offset, np.zeros(every.shape[0] - m)])
     return Rows(
-        count=m,
+        normals=m,
         start=_whole(every.indptr),
         component=_whole(every.indices),
         value=every.data.astype(float),

@@ -50,7 +50,8 @@ def drives(model: Model, rows: ContactRows, times: Array) -> Drives | None:
     ramps, instants = [ramp for ramp, _ in loads], times.tolist()
     tool = _of_rows(model.contacts, numbers)
     slabs = list(zip(instants[:-1], instants[1:], strict=True))
-    component = np.flatnonzero(np.any([mask.ravel() for _, mask in model.driven], axis=0)) if model.driven else []
+    moving = np.any([np.zeros(model.points.size, bool), *(mask.ravel() for _, mask in model.driven)], axis=0)
+    component = np.flatnonzero(moving)
     return Drives(
         field=np.array([field.ravel() for _, field in loads]).reshape(len(loads), model.points.size),
         load_at=np.array([[ramp.at(t) for ramp in ramps] for t in instants]),
@@ -59,7 +60,7 @@ def drives(model: Model, rows: ContactRows, times: Array) -> Drives | None:
         offset=np.concatenate([rows.offset, np.zeros(shear.shape[0] * shear.shape[1])]),
         normal=np.concatenate([rows.normal, shear.reshape(-1, model.shape[1])]),
         shift=_shifts(model, numbers, instants),
-        component=np.array(component, np.int64),
+        component=component.astype(np.int64),
         rate=np.array([model.prescribed(t).ravel()[component] if model.driven else [] for t in instants]),
         bent=np.array([_bent(model, slab, component) if model.driven else [] for slab in slabs]),
     )
