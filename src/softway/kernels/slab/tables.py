@@ -43,8 +43,8 @@ class Rows(NamedTuple):
 
     Sparse rows ``start`` (M + 1,), ``component`` and ``value`` (z,); gaps at zero displacement at both ends of a slab,
     ``before`` and ``offset`` (M,), and the motion ``moved`` (M,) of the tools along the rows in between; of the normal
-    rows ``contact`` (m,) and ``part`` (m,), if unknowns ``move`` them (m,), and the overlap ``allowed`` (m,) of the free
-    motion [m].
+    rows ``contact`` (m,) and ``part`` (m,), if unknowns ``move`` them (m,), and the overlap ``allowed`` (m,) of the
+    free motion [m].
     """
 
     normals: int

@@ -147,16 +147,16 @@ CASES = {
     "held": (held(), 0.004, 160),
     "bar on bar": (row_of_bars(), 0.02, 260),
     "all bars": (row_of_bars("all"), 0.02, 240),  # closed rows of both ends depend on each other
-    "bars and moving wall": (moving(row_of_bars(), "wall", sw.bodies.Translation(velocity=-0.3)), 0.02, 260),
+    "bars and moving wall": (moving(row_of_bars(), "wall", sw.bodies.Translation(velocity=-0.3)), 0.02, 160),
     "moving floor": (rising(), 0.004, 160),
     "loaded": (loaded(), 0.004, 160),
     "shaken": (shaken(), 0.004, 160),
-    "sticks": (rubbing(sw.Coulomb(mu=0.8), 1.0, 0.0), 0.001, 200),
-    "slips": (rubbing(sw.laws.StaticKinetic(mu_s=0.4, mu_k=0.2), 6.0, 0.2), 0.001, 200),
+    "sticks": (rubbing(sw.Coulomb(mu=0.8), 1.0, 0.0), 0.001, 120),
+    "slips": (rubbing(sw.laws.StaticKinetic(mu_s=0.4, mu_k=0.2), 6.0, 0.2), 0.001, 120),
     "on a belt": (
         moving(rubbing(sw.Coulomb(mu=0.3), 0.0, 0.0), "floor", sw.bodies.Translation(velocity=(0.5, 0.02))),
         0.001,
-        200,
+        120,
     ),
     "side by side": (neighbours(), 0.004, 100),  # up to the contact of both
 }
