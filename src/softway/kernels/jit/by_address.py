@@ -3,6 +3,8 @@
 Numba passes a tuple of arrays by value, seven numbers for each array, so that functions that share tuples are best
 inlined, and are compiled again in each of their callers.  A table by address is one pointer: a call takes a few
 nanoseconds, and an access loads one array.
+
+Optional parts of kernels are called by their address, too: a march that does not need a part does not compile it.
 """
 
 from collections.abc import Callable
@@ -81,6 +83,19 @@ def table(name: str, **entries: Any) -> Callable[[int], Any]:
         return kind(types.int64), generate
 
     return at  # type: ignore[no-any-return]
+
+
+@intrinsic
+def ask(typing, address, places, number):
+    """Call the part at an address with an array of addresses and a number; its answer."""
+
+    def generate(context, builder, signature, args):
+        whole = ir.IntType(64)
+        kind = ir.FunctionType(whole, [whole.as_pointer(), whole]).as_pointer()
+        data = context.make_array(signature.args[1])(context, builder, args[1]).data
+        return builder.call(builder.inttoptr(args[0], kind), [data, args[2]])
+
+    return types.int64(types.int64, types.int64[::1], types.int64), generate
 
 
 def packed(arrays: NamedTuple) -> IntArray:

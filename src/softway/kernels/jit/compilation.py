@@ -27,7 +27,6 @@ _SHARED = (
     "jit/by_address.py",
     "jit/compilation.py",
     "jit/elementary.py",
-    "jit/hooks.py",
     "jit/lanes.py",
     "jit/simd.py",
     "fused/history_stages.py",
@@ -83,7 +82,7 @@ def stage(function: Callable[..., None]) -> Stage:
 
 
 def asked(function: Callable[..., int]) -> Any:
-    """Compile an optional part of kernels, which they :func:`~softway.kernels.jit.hooks.ask` by its address, and cache
+    """Compile an optional part of kernels, which they :func:`~softway.kernels.jit.by_address.ask` by its address, and cache
     it on disk.
     """
     return _kept(lambda **options: cfunc(_PART_ASKED, **options), function, _EXACT | _UNCOUNTED)

@@ -7,8 +7,8 @@ that is not zero, or a balance within half its limit.  So both take the same dec
 
 import numpy as np
 
+from softway.kernels.jit.by_address import ask
 from softway.kernels.jit.compilation import called, uncounted_kernel
-from softway.kernels.jit.hooks import ask
 from softway.kernels.multibody.band import factor_band, solve_band
 from softway.kernels.slab.audit import audited, closes
 from softway.kernels.slab.products import along, elastic, extent, greatest, momenta

@@ -1,5 +1,7 @@
 """Several slabs (time steps) in one compiled call."""
 
+from collections.abc import Callable
+
 import numpy as np
 
 from softway.arrays import Array
@@ -11,11 +13,10 @@ from softway.kernels.slab.friction import rubbing
 from softway.kernels.slab.march import slabs
 from softway.kernels.slab.tables import ITERATIONS, MET, SUMS, Bodies, Course, Rows, Work
 from softway.kernels.slab.works import WORKS
-from softway.marching.slab.compiled_model import CompiledModel
+from softway.marching.slab.compiled_model import CompiledModel, SlabTables
 from softway.marching.slab.rows.driven import drives
 from softway.marching.slab.rows.friction import friction_table
 from softway.marching.slab.slab_batch import SlabBatch, contractions
-from softway.marching.start.knots import length_at, slab_end
 from softway.marching.state.march_state import MarchState
 from softway.marching.state.model_state import ModelState
 from softway.model.model import Model
@@ -32,9 +33,15 @@ SAME = 1e-9
 
 
 def next_batch(
-    compiled: CompiledModel, march_state: MarchState, before: State, memory: OperatorMemory
+    compiled: CompiledModel,
+    march_state: MarchState,
+    before: State,
+    memory: OperatorMemory,
+    end_after: Callable[[float], float],
 ) -> SlabBatch | None:
     """Slabs from a march state on, up to one in which something happens; None if that is the next one.
+
+    ``end_after`` gives the end of a slab that begins at a time [s].
 
     The state alone decides which slabs are compiled, so that a resumed march has the same bits.
     """
@@ -44,23 +51,12 @@ def next_batch(
     if not (steady and known and max(memory.taken.last, default=0) <= USUAL * WORN):
         return None
     span = compiled.span if memory.serves(compiled.span) else memory.span
-    times = _times(compiled, march_state, span)
+    times = _times(compiled, march_state, span, end_after)
     tables = compiled.tables(now, span) if len(times) > 1 else None
     if tables is None:
         return None
     course = new_course(model, now, tables.contact_rows, times)
-    account = march_state.account
-    start = account.energy_start - account.remeshing
-    told = np.array([start, account.work_external, account.energy_error, account.dissipation])
-    work, surfaces = new_work(tables.bodies, tables.rows), tables.surfaces
-    changing = drives(model, tables.contact_rows, times)
-    rubs = friction_table(model, tables.contact_rows, tables.held, march_state)
-    given = (tables.bodies, tables.rows, tables.operator, course, work, surfaces, changing, rubs)
-    arrays = [None if each is None else packed(each) for each in given]
-    places = np.array([0 if each is None else each.ctypes.data for each in arrays])
-    optional = ((surfaces, apart), (changing, driven), (rubs, rubbing))
-    parts = np.array([0 if own is None else part().address for own, part in optional])
-    count = slabs(places, parts, compiled.tolerance, told, len(times) - 1)
+    count = _called(model, tables, course, march_state, compiled.tolerance)
     if not count:
         return None
     iterations = tuple(int(i) for i in course.sums[:count, ITERATIONS].tolist())
@@ -77,17 +73,32 @@ def next_batch(
     )
 
 
-def _times(compiled: CompiledModel, march_state: MarchState, span: float) -> Array:
+def _called(model: Model, tables: SlabTables, course: Course, march_state: MarchState, tolerance: float) -> int:
+    """Fill a course with slabs, and return how many were computed."""
+    account = march_state.account
+    start = account.energy_start - account.remeshing
+    told = np.array([start, account.work_external, account.energy_error, account.dissipation])
+    work, surfaces = new_work(tables.bodies, tables.rows), tables.surfaces
+    changing = drives(model, tables.contact_rows, course.time)
+    rubs = friction_table(model, tables.contact_rows, tables.held, march_state)
+    given = (tables.bodies, tables.rows, tables.operator, course, work, surfaces, changing, rubs)
+    arrays = [None if each is None else packed(each) for each in given]
+    places = np.array([0 if each is None else each.ctypes.data for each in arrays])
+    optional = ((surfaces, apart), (changing, driven), (rubs, rubbing))
+    parts = np.array([0 if own is None else part().address for own, part in optional])
+    return int(slabs(places, parts, tolerance, told, len(course.time) - 1))
+
+
+def _times(compiled: CompiledModel, march_state: MarchState, span: float, end_after: Callable[[float], float]) -> Array:
     """Ends (s + 1,) [s] of the next slabs of the length ``span`` [s], those of the solver for all models; not of the
     last ones of the march, which may be shorter.
     """
-    settings, history, now = march_state.settings, march_state.step_history, march_state.state
+    settings, now = march_state.settings, march_state.state
     left = (settings.until - now.time) / compiled.span - AHEAD
     wanted = int(min(left, TOGETHER, max(1, NUMBERS // (8 * now.start.displacement.size))))
     times = [now.time]
     for _ in range(wanted):
-        length = length_at(compiled.ends, settings, history, times[-1]) if compiled.ends else compiled.span
-        end = slab_end(compiled.ends, settings.until, times[-1], length)
+        end = end_after(times[-1]) if compiled.ends else times[-1] + compiled.span
         if abs((end - times[-1]) / span - 1.0) > SAME:
             break
         times.append(end)

@@ -59,6 +59,12 @@ def length_at(ends: tuple[float, ...], settings: Settings, history: StepHistory,
     return until - time if until - time - length < least else length
 
 
+def end_after(ends: tuple[float, ...], march_state: MarchState, time: float) -> float:
+    """End [s] of a slab from ``time`` of the length that the march state proposes."""
+    settings = march_state.settings
+    return slab_end(ends, settings.until, time, length_at(ends, settings, march_state.step_history, time))
+
+
 def _within(lowest: float, history: StepHistory, left: float) -> float:
     """Length [s] on the proposed rung above the ``lowest`` one, or on the highest one that fits into the time left."""
     length, doublings = lowest, max(0, round(log2(history.length / history.span)))

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from softway.arrays import Array, IntArray
+from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.prescribed_motion import Sliding, Still, Table, Translation
 from softway.contact.contact_rows import ContactRows
 from softway.contact.contact_set import ContactSet, SlabContacts
@@ -34,8 +34,15 @@ def tool_rows(contacts: ContactSet) -> ContactRows:
 
 def supports_move_mass(model: Model) -> bool:
     """True if the supports that move have nodes with inertia only: others do work in the energy balance."""
-    where = [mask for _, mask in model.driven]
-    return not (np.any(where, axis=0) & ~model.massive[:, None]).any() if where else True
+    return model.space.every(~_moving(model) | model.massive[:, None])
+
+
+def _moving(model: Model) -> BoolArray:
+    """Components (n, d) that supports move."""
+    out = np.zeros(model.shape, bool)
+    for _, where in model.driven:
+        out |= where
+    return out
 
 
 def drives(model: Model, rows: ContactRows, times: Array) -> Drives | None:
@@ -50,8 +57,7 @@ def drives(model: Model, rows: ContactRows, times: Array) -> Drives | None:
     ramps, instants = [ramp for ramp, _ in loads], times.tolist()
     tool = _of_rows(model.contacts, numbers)
     slabs = list(zip(instants[:-1], instants[1:], strict=True))
-    moving = np.any([np.zeros(model.points.size, bool), *(mask.ravel() for _, mask in model.driven)], axis=0)
-    component = np.flatnonzero(moving)
+    component = np.flatnonzero(_moving(model))
     return Drives(
         field=np.array([field.ravel() for _, field in loads]).reshape(len(loads), model.points.size),
         load_at=np.array([[ramp.at(t) for ramp in ramps] for t in instants]),
