@@ -3,6 +3,7 @@
 import logging
 from collections.abc import Iterator
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
@@ -12,15 +13,16 @@ from softway.marching.audit.ledger import update_account
 from softway.marching.results.step import Event, Ledger, Report, Step
 from softway.marching.results.step_states import KnownStates
 from softway.marching.results.trying import watched
-from softway.marching.slab.compiled_model import compiled_model
+from softway.marching.slab.compiled_model import CompiledModel, compiled_model
 from softway.marching.slab.compiled_slabs import next_batch
 from softway.marching.slab.resident_model import resident_model
 from softway.marching.slab.resident_slabs import next_resident
+from softway.marching.slab.slab_batch import SlabBatch
 from softway.marching.slab.slab_step import Stepper
 from softway.marching.slab.step_group import StepGroup, in_steps
 from softway.marching.slab.stored.stored_model import stored_model
 from softway.marching.slab.stored.stored_slabs import next_stored
-from softway.marching.start.knots import slab_length
+from softway.marching.start.knots import end_after, slab_length
 from softway.marching.start.ladder import Quality, fastest, next_rung, on_ladder
 from softway.marching.state.march_state import AdaptedMeshes, MarchState, StepHistory
 from softway.marching.state.model_state import split_states
@@ -28,6 +30,7 @@ from softway.marching.state.step_control import Crushing, above, crushing, may_g
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.solve.equations.energy_balance import SLIGHT
+from softway.solve.operators.operator_memory import OperatorMemory
 
 log = logging.getLogger(__name__)
 STRAINED = 0.2
@@ -47,7 +50,7 @@ def groups(stepper: Stepper, march_state: MarchState) -> Iterator[Step | StepGro
     stored = stored_model(stepper, settings, span)
     resident, shapes = resident_model(stepper, settings), watched_cells(model)
     while march_state.state.time < until - 1e-9 * span:
-        some = None if compiled is None else next_batch(compiled, march_state, before, memory)
+        some = None if compiled is None else _batch(stepper, compiled, march_state, before, memory)
         some = some if stored is None else next_stored(stored, march_state, before, memory)
         some = some if resident is None else next_resident(resident, march_state, before, memory)
         if some is not None:
@@ -66,6 +69,13 @@ def groups(stepper: Stepper, march_state: MarchState) -> Iterator[Step | StepGro
         log.debug("slab %d to t = %.6g s: %d iterations", march_state.slabs, found.after.time, found.out.iterations)
         yield (step := _step(model, before, found, march_state, bad))
         before, memory = step.after, found.memory
+
+
+def _batch(
+    stepper: Stepper, compiled: CompiledModel, march_state: MarchState, before: State, memory: OperatorMemory
+) -> SlabBatch | None:
+    """Compiled slabs from a march state on; None if the next one is not."""
+    return next_batch(compiled, march_state, before, memory, partial(end_after, stepper.ends, march_state))
 
 
 def _looked_at(

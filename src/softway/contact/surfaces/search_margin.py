@@ -53,7 +53,7 @@ class SearchMargin:
         """Distance [m] within which the surfaces had to be paired, with a ``deviation`` (n,) of each node from the
         expected motion: the greatest sum for two surfaces that may touch.
         """
-        found = np.array([_magnified(side) * deviation[side.nodes].max(initial=0.0) for side in self.sides])
+        found = np.array([magnified(side) * deviation[side.nodes].max(initial=0.0) for side in self.sides])
         return self.raised + float(np.where(self.meet, found[:, None] + found, 0.0).max(initial=0.0))
 
     def apart(self, x0: Array, x1: Array, distance: float) -> bool:
@@ -70,14 +70,14 @@ class SearchMargin:
         pairs = np.argwhere(np.triu(close))
         if len(pairs) > FEW:
             return False
-        boxes = {k: sweep(x0, x1, self.sides[k].table, _swelling(self.sides[k])) for k in np.unique(pairs).tolist()}
+        boxes = {k: sweep(x0, x1, self.sides[k].table, swelling(self.sides[k])) for k in np.unique(pairs).tolist()}
         return not any(len(near(boxes[k], boxes[m], distance)[0]) for k, m in pairs.tolist())
 
 
 def _whole(side: ContactSurface, x0: Array, x1: Array) -> Sweep:
     """Box around a whole surface."""
     low, high = ([np.asarray(of(x[side.nodes], axis=0)) for x in (x0, x1)] for of in (np.min, np.max))
-    half = np.maximum(high[0] - low[0], high[1] - low[1]) * (0.5 + _swelling(side))
+    half = np.maximum(high[0] - low[0], high[1] - low[1]) * (0.5 + swelling(side))
     return Sweep(start=0.5 * (low[0] + high[0])[None], end=0.5 * (low[1] + high[1])[None], half=half[None])
 
 
@@ -87,9 +87,11 @@ def _joined(found: list[Sweep]) -> Sweep:
     return Sweep(start=start, end=end, half=half)
 
 
-def _swelling(side: ContactSurface) -> float:
+def swelling(side: ContactSurface) -> float:
+    """Distance, relative to its width, by which a surface may extend beyond its nodes."""
     return max((SWELLING.get(kind, 0.0) for kind in side.facets), default=0.0)
 
 
-def _magnified(side: ContactSurface) -> float:
+def magnified(side: ContactSurface) -> float:
+    """Greatest motion of a point of a surface, relative to that of its nodes."""
     return max((LEBESGUE.get(kind, 1.0) for kind in side.facets), default=1.0)

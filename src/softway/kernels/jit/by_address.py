@@ -4,6 +4,8 @@ Numba passes a tuple of arrays by value, seven numbers for each array, so that f
 inlined, and are compiled again in each of their callers.  A table by address is one pointer: a call takes a few
 nanoseconds, and an access loads one array.  Its address is a number (``table``), or taken of a named tuple at the
 entry of a kernel (``passed_by_address``).
+
+Optional parts of kernels are called by their address, too: a march that does not need a part does not compile it.
 """
 
 from collections.abc import Callable
@@ -199,6 +201,19 @@ def _whole(value: Any, context: Any) -> Any:
     """Numba type of a named tuple by value, with the tuples in it by value."""
     parts = [_whole(v, context) if hasattr(v, "_fields") else typeof_impl(v, context) for v in value]
     return types.BaseTuple.from_types(tuple(parts), type(value))
+
+
+@intrinsic
+def ask(typing, address, places, number):
+    """Call the part at an address with an array of addresses and a number; its answer."""
+
+    def generate(context, builder, signature, args):
+        whole = ir.IntType(64)
+        kind = ir.FunctionType(whole, [whole.as_pointer(), whole]).as_pointer()
+        data = context.make_array(signature.args[1])(context, builder, args[1]).data
+        return builder.call(builder.inttoptr(args[0], kind), [data, args[2]])
+
+    return types.int64(types.int64, types.int64[::1], types.int64), generate
 
 
 def packed(arrays: NamedTuple) -> IntArray:

@@ -21,6 +21,7 @@ _KERNEL = _EXACT | {"nogil": True, "no_cfunc_wrapper": True}
 _PART = _EXACT | {"forceinline": True, "no_cfunc_wrapper": True, "no_cpython_wrapper": True}
 # Numba counts references to arrays by atomic operations, which take longer than a slab of a small mechanism.
 _UNCOUNTED: dict[str, Any] = {"_nrt": False}
+_PART_ASKED = types.int64(types.CPointer(types.int64), types.int64)
 _POINT = types.void(types.CPointer(types.float64), types.CPointer(types.float64))
 _TASK = types.void(types.int64)
 _SHARED = (
@@ -64,8 +65,11 @@ _SHARED = (
     "pile/sweeps.py",
     "pile/tables.py",
     "pile/through.py",
+    "slab/apart.py",
     "slab/audit.py",
     "slab/band.py",
+    "slab/driven.py",
+    "slab/friction.py",
     "slab/march.py",
     "slab/products.py",
     "slab/stored/closure.py",
@@ -96,6 +100,13 @@ def task(function: Callable[..., None]) -> Stage:
 def function_at(kind: Any, function: Callable[..., int]) -> Stage:
     """Compile a function of the address of a named tuple, which kernels call by its address, and cache it on disk."""
     return _kept(lambda **options: cfunc(types.int64(kind), **options), function, _EXACT)
+
+
+def asked(function: Callable[..., int]) -> Any:
+    """Compile an optional part of kernels, which they call by its address, and cache it on disk; see
+    :func:`~softway.kernels.jit.by_address.ask`.
+    """
+    return _kept(lambda **options: cfunc(_PART_ASKED, **options), function, _EXACT | _UNCOUNTED)
 
 
 def kernel(function: Callable[..., Any]) -> Callable[..., Any]:

@@ -10,8 +10,10 @@ from softway.kernels.slab.tables import (
     COUNT,
     ERROR,
     FORCE,
+    FORCE_T,
     GAP,
     KINETIC,
+    LOST,
     MOMENTUM,
     POWER,
     SPIN,
@@ -35,13 +37,14 @@ def closes(bodies, rows, course, work, unit, s):
     work.group[:] = 0.0
     for c in range(len(work.push)):
         work.push[c] = 0.5 * (f0[c] + f1[c])
-    loads = (bodies.load, bodies.load)
+    loads = (bodies.load_before, bodies.load)
     part_works(bodies.first, d, bodies.heavy, loads, u0, u1, (f0, f1), work.push, work.works)
-    for r in range(len(rows.offset)):
+    rough = len(rows.offset) > rows.normals
+    for r in range(rows.normals):
         if course.pressure[s, r] > 0.0 or course.pressure[s + 1, r] > 0.0:
             work.group[bodies.group[rows.part[r]], 2] = 1.0
     for part in range(len(bodies.floor)):
-        flies = work.group[bodies.group[part], 2] == 0.0
+        flies = rough or work.group[bodies.group[part], 2] == 0.0
         V0, V1, found = course.energy[s, part], course.energy[s + 1, part], work.works[part]
         kinetic = 0.0
         for c in range(bodies.first[part] * d, bodies.first[part + 1] * d):
@@ -50,9 +53,13 @@ def closes(bodies, rows, course, work, unit, s):
         g = bodies.group[part]
         work.group[g, 0] += V1 - V0 - found[MOVING] - (found[ENDS] if flies else found[STILL])
         work.group[g, 1] += SUMS * level + bodies.floor[part]
-    for r in range(len(rows.offset)):
+    for r in range(rows.normals):
         g = bodies.group[rows.part[r]]
         work.group[g, 1] += blur * (abs(course.pressure[s, r]) + abs(unit * course.pressure[s + 1, r]))
+        force = 0.5 * (course.pressure[s, r] + unit * course.pressure[s + 1, r])
+        moved = along(rows, r, u1) - along(rows, r, u0) if rough and force > 0.0 else 0.0
+        work.group[g, 0] += force * (moved - rows.moved[r])
+        work.group[g, 1] += SUMS * 2.0 * abs(force * rows.moved[r])
     closed = True
     for g in range(len(work.group)):
         closed = closed and abs(work.group[g, 0]) <= SURE * work.group[g, 1]
@@ -69,7 +76,7 @@ def audited(bodies, rows, course, work, account, s):
         course.slope[s + 1, c] = (v - course.v[s, c]) * (1.0 / h)
         work.push[c] = 0.0
     momenta(bodies, course.v[s + 1], work.after)
-    course.met[s] = 0.0
+    course.met[s, :, :FORCE_T] = 0.0
     for k in range(course.met.shape[1]):
         course.met[s, k, GAP] = np.inf
     gap = _touching(rows, course, work, s)
@@ -78,7 +85,7 @@ def audited(bodies, rows, course, work, account, s):
         _supported(bodies, course, work, h, s)
     size = _momentum(bodies, course, work, h, s)
     _spin(bodies, course, work, s)
-    level = _energies(bodies, course, work, account, s)
+    level = _energies(bodies, rows, course, work, account, s)
     rest = 0.0
     for part in range(len(bodies.floor)):
         rest += bodies.floor[part]
@@ -96,10 +103,12 @@ def _touching(rows, course, work, s):
     """Sums over the contacts; the least gap.  ``work.row`` are the mean forces of the rows."""
     least = np.inf
     course.sums[s, COMPLEMENTARITY] = course.sums[s, POWER] = 0.0
-    for r in range(len(rows.offset)):
+    for r in range(rows.normals, len(rows.offset)):
+        work.row[r] = 0.5 * course.pressure[s, r] + 0.5 * course.pressure[s + 1, r]
+    for r in range(rows.normals):
         met, p0, p1 = course.met[s, rows.contact[r]], course.pressure[s, r], course.pressure[s + 1, r]
         gap = rows.offset[r] + along(rows, r, course.u[s + 1])
-        before = rows.offset[r] + along(rows, r, course.u[s]) if p0 > 0.0 else 0.0
+        before = rows.before[r] + along(rows, r, course.u[s]) if p0 > 0.0 else 0.0
         a = course.scalar[s, rows.part[r]]
         force = (0.5 - a) * p0 + (0.5 + a) * p1
         work.row[r] = force
@@ -125,7 +134,8 @@ def _supported(bodies, course, work, h, s):
             if bodies.place[c] < 0:
                 inertia = (work.after[c] - work.before[c]) / h
                 mean = first * course.force[s, c] + last * course.force[s + 1, c]
-                course.support[s, c] = inertia + mean - bodies.load[c] - work.push[c]
+                load = 0.5 * bodies.load_before[c] + 0.5 * bodies.load[c]
+                course.support[s, c] = inertia + mean - load - work.push[c]
 
 
 @called
@@ -139,7 +149,8 @@ def _momentum(bodies, course, work, h, s):
         gained, pushed = 0.0, 0.0
         for i in range(len(bodies.weight)):
             c = i * d + a
-            given = bodies.load[c] + work.push[c] + (course.support[s, c] if held else 0.0)
+            load = 0.5 * bodies.load_before[c] + 0.5 * bodies.load[c]
+            given = load + work.push[c] + (course.support[s, c] if held else 0.0)
             gained += bodies.weight[i] * (course.v[s + 1, c] - course.v[s, c])
             pushed += given
             size += abs(work.before[c]) + abs(work.after[c]) + h * abs(given)
@@ -164,23 +175,38 @@ def _spin(bodies, course, work, s):
 
 
 @called
-def _energies(bodies, course, work, account, s):
+def _energies(bodies, rows, course, work, account, s):
     """Set energies, work and the error of their balance; the energy that takes part.
 
-    ``account`` are the energy at the start less losses, and external work and error before the first slab.
+    ``account`` are the energy at the start, and external work and error before the first slab.
     """
     kinetic, strain, level, done = 0.0, 0.0, 0.0, 0.0
     for c in range(len(work.q)):
         kinetic += course.v[s + 1, c] * work.after[c]
-        done += bodies.load[c] * (course.u[s + 1, c] - course.u[s, c])
+        done += (0.5 * bodies.load_before[c] + 0.5 * bodies.load[c]) * (course.u[s + 1, c] - course.u[s, c])
+    for r in range(len(rows.moved)):
+        done += work.row[r] * rows.moved[r]
+    if course.support.shape[0]:
+        done += _driven(bodies, course, work, s)
     for part in range(len(bodies.floor)):
         strain += course.energy[s + 1, part]
         level += abs(course.energy[s, part]) + abs(course.energy[s + 1, part])
     total = (course.sums[s - 1, WORK] if s else account[1]) + done
     sums = course.sums[s]
     sums[KINETIC], sums[STRAIN], sums[WORK] = 0.5 * kinetic, strain, total
-    sums[ERROR] = 0.5 * kinetic + strain - account[0] - total
+    sums[ERROR] = 0.5 * kinetic + strain - account[0] - total + sums[LOST]
     return level + 0.5 * kinetic + abs(total)
+
+
+@called
+def _driven(bodies, course, work, s):
+    """Work of the supports; without the part that accelerates nodes over the way beyond that of linear velocities."""
+    h, total = course.time[s + 1] - course.time[s], 0.0
+    for c in range(len(work.q)):
+        if bodies.place[c] < 0:
+            total += course.support[s, c] * (course.u[s + 1, c] - course.u[s, c])
+            total -= (work.after[c] - work.before[c]) / h * bodies.bent[c]
+    return total
 
 
 @called

@@ -7,6 +7,7 @@ that is not zero, or a balance within half its limit.  So both take the same dec
 
 import numpy as np
 
+from softway.kernels.jit.by_address import ask
 from softway.kernels.jit.compilation import called, uncounted_kernel
 from softway.kernels.multibody.band import factor_band
 from softway.kernels.slab.audit import audited, closes
@@ -16,6 +17,7 @@ from softway.kernels.slab.tables import (
     FIRST,
     ITERATIONS,
     LAST,
+    LOST,
     bodies_at,
     course_at,
     operator_at,
@@ -29,6 +31,8 @@ LEAST = 1e-9
 """Force of a row, relative to the greatest one, above which it stays closed."""
 CLOSE = 1e-14
 """Difference of velocities, relative to them, that is rounding."""
+ALLOWS, PREPARES, RUBS = range(3)
+"""Places of the optional parts."""
 UNIT = 0.5
 """Second moment of the end peaks: the part of the slab in which a force at its end acts."""
 
@@ -58,19 +62,28 @@ def answer(bodies_place, rows_place, r, down, up, pivot, x, out):
 
 
 @uncounted_kernel
-def slabs(places, tolerance, account, wanted):
+def slabs(places, parts, tolerance, account, wanted):
     """Compute up to ``wanted`` slabs from the first state of a course, and return how many were computed.
 
-    ``places`` (5,) are the addresses of the tables of bodies, rows, operator, course and work.
-    ``account`` (2,) are energy at the start of the march and external work, ``tolerance`` that of the iteration.
+    ``places`` (8,) are the addresses of the tables of bodies, rows, operator, course and work, and of those of optional
+    ``parts`` (3,): the addresses of parts that allow a solved slab, that prepare a slab, and for friction, or zero.
+    ``account`` (4,) are energy at the start of the march, external work, error and dissipated energy, ``tolerance``
+    is that of the iteration.
     """
     bodies, rows, operator = bodies_at(places[0]), rows_at(places[1]), operator_at(places[2])
     course, work = course_at(places[3]), work_at(places[4])
     momenta(bodies, course.v[0], work.before)
     for s in range(wanted):
+        if parts[PREPARES] != 0:
+            ask(parts[PREPARES], places, s)
         if not _slab(bodies, rows, operator, course, work, tolerance, s):
             return s
+        course.sums[s, LOST] = account[3]
+        if parts[RUBS] != 0 and ask(parts[RUBS], places, s) == 0:
+            return s
         if not audited(bodies, rows, course, work, account, s):
+            return s
+        if parts[ALLOWS] != 0 and ask(parts[ALLOWS], places, s) == 0:
             return s
         for c in range(len(work.q)):
             work.before[c] = work.after[c]
@@ -117,11 +130,11 @@ def expect(bodies, rows, course, work, h, s):
     """Set q (N,) to the velocity that goes on as before; false if a row would overlap too far without contact."""
     u, v, slope, end = course.u[s], course.v[s], course.slope[s], work.x
     for c in range(len(work.q)):
-        rate = v[c] + h * slope[c]
-        work.q[c] = 0.0 if bodies.place[c] < 0 else rate if bodies.heavy[c] else 2.0 * rate
-        end[c] = u[c] + h * (0.5 * (v[c] + rate) if bodies.heavy[c] else rate)
+        rate = v[c] + h * slope[c] if bodies.place[c] >= 0 else bodies.given[c]
+        work.q[c] = rate if bodies.heavy[c] else 2.0 * rate
+        end[c] = u[c] + h * (0.5 * (v[c] + rate) if bodies.heavy[c] else rate) + bodies.bent[c]
     slow = True
-    for r in range(len(rows.offset)):
+    for r in range(rows.normals):
         slow = slow and rows.offset[r] + along(rows, r, end) >= -rows.allowed[r]
     return slow
 
@@ -130,7 +143,7 @@ def expect(bodies, rows, course, work, h, s):
 def arrive(bodies, u, v, q, h, out):
     """Displacement (N,) at the end of a slab of the length h, for q (N,)."""
     for c in range(len(q)):
-        out[c] = u[c] + h * (0.5 * (v[c] + q[c]) if bodies.heavy[c] else 0.5 * q[c])
+        out[c] = u[c] + h * (0.5 * (v[c] + q[c]) if bodies.heavy[c] else 0.5 * q[c]) + bodies.bent[c]
 
 
 @called
@@ -145,16 +158,22 @@ def _iterated(bodies, rows, operator, course, work, h, s):
             load = bodies.load[c]
             mean = h * (0.5 * f0[c] + 0.5 * f1[c] - load)
             x[bodies.place[c]] = -(work.push[c] + mean) if bodies.heavy[c] else -h * UNIT * (f1[c] - load)
-    impulse = course.pressure[s + 1]
-    for k in range(len(operator.active)):
-        r = operator.active[k]
-        for e in range(rows.start[r], rows.start[r + 1]):
-            if bodies.place[rows.component[e]] >= 0:
-                x[bodies.place[rows.component[e]]] += rows.value[e] * impulse[r]
+    add_impulses(bodies, rows, operator.active, course.pressure[s + 1], x)
+    add_impulses(bodies, rows, operator.slip, course.pressure[s + 1], x)
     solve_spread(operator.down, operator.up, operator.pivot, x[: len(operator.pivot)])
     for c in range(len(field)):
         field[c] = x[bodies.place[c]] if bodies.place[c] >= 0 else 0.0
     return press(bodies, rows, operator, course, work, h, s)
+
+
+@called
+def add_impulses(bodies, rows, which, impulse, x):
+    """Add the impulses of some rows to those of the unknowns."""
+    for k in range(len(which)):
+        r = which[k]
+        for e in range(rows.start[r], rows.start[r + 1]):
+            if bodies.place[rows.component[e]] >= 0:
+                x[bodies.place[rows.component[e]]] += rows.value[e] * impulse[r]
 
 
 @called
@@ -174,6 +193,8 @@ def press(bodies, rows, operator, course, work, h, s):
         impulse[operator.active[a]] += total
         for c in range(len(field)):
             field[c] += operator.answer[a, c] * total
+    for j in range(len(operator.slip)):
+        impulse[operator.slip[j]] = operator.factor[j] * impulse[operator.partner[j]]
     for c in range(len(field)):
         work.q[c] += field[c]
     return greatest(field)
@@ -181,7 +202,9 @@ def press(bodies, rows, operator, course, work, h, s):
 
 @called
 def _target(bodies, rows, course, h, s, r):
-    """Component of q along a row that closes its gap at the end of the slab."""
+    """Component of q along a row that closes its gap at the end of the slab, or along one that sticks."""
+    if r >= rows.normals:
+        return 2.0 / h * rows.moved[r]
     gap = rows.offset[r]
     for e in range(rows.start[r], rows.start[r + 1]):
         c = rows.component[e]
@@ -194,11 +217,11 @@ def stays(bodies, rows, operator, course, work, h, rounding, s):
     """True if closed rows certainly stay closed, and open rows open."""
     impulse, most = course.pressure[s + 1], 0.0
     for a in range(len(operator.active)):
-        most = max(most, impulse[operator.active[a]])
+        most = max(most, impulse[operator.active[a]] if operator.active[a] < rows.normals else 0.0)
     for a in range(len(operator.active)):
-        if not impulse[operator.active[a]] > LEAST * most:
+        if operator.active[a] < rows.normals and not impulse[operator.active[a]] > LEAST * most:
             return False
-    for r in range(len(rows.offset)):
+    for r in range(rows.normals):
         if rows.move[r] and impulse[r] == 0.0:
             now = along(rows, r, work.q)
             slack = now - _target(bodies, rows, course, h, s, r)

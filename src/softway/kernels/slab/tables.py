@@ -13,8 +13,9 @@ class Bodies(NamedTuple):
     unknowns; ``heavy`` (N,) are components with inertia, ``place`` (N,) the places of the components in the band, -1
     for a supported one.  ``mass`` and ``stiff`` are sparse rows of nodes: ``mass_start`` (n + 1,), ``mass_node``
     (z,), ``mass`` (z,) and the row sums ``weight`` (n,); ``stiff_start`` (n + 1,), ``stiff_node`` (y,) and ``stiff``
-    (y, d, d) without the diagonal, as translations cause no force.  ``points``, ``load`` (N,) and ``floor`` (parts,) as
-    in the model.
+    (y, d, d) without the diagonal, as translations cause no force.  ``points``, ``load`` and ``load_before``
+    (N,), at both ends of a slab, and ``floor`` (parts,) as in the model.  Supports have the velocity ``given`` (N,) at
+    the end of a slab, and move by ``bent`` (N,) beyond the way of linear velocities.
     """
 
     dimension: int
@@ -31,19 +32,28 @@ class Bodies(NamedTuple):
     stiff: Array
     points: Array
     load: Array
+    load_before: Array
+    given: Array
+    bent: Array
     floor: Array
 
 
 class Rows(NamedTuple):
-    """Contact rows (m,) that never change: sparse rows ``start`` (m + 1,), ``component`` and ``value`` (z,), ``offset``
-    (m,), ``contact`` (m,) and ``part`` (m,) of each, if unknowns ``move`` it (m,), and the overlap ``allowed`` (m,) of
-    the free motion [m].
+    """Contact rows (M,) whose directions never change, m ``normals`` and then with friction the tangential ones.
+
+    Sparse rows ``start`` (M + 1,), ``component`` and ``value`` (z,); gaps at zero displacement at both ends of a slab,
+    ``before`` and ``offset`` (M,), and the motion ``moved`` (M,) of the tools along the rows in between; of the normal
+    rows ``contact`` (m,) and ``part`` (m,), if unknowns ``move`` them (m,), and the overlap ``allowed`` (m,) of the
+    free motion [m].
     """
 
+    normals: int
     start: IntArray
     component: IntArray
     value: Array
+    before: Array
     offset: Array
+    moved: Array
     contact: IntArray
     part: IntArray
     move: BoolArray
@@ -53,7 +63,8 @@ class Rows(NamedTuple):
 class Operator(NamedTuple):
     """Factor ``down``, ``up`` (f, w + 4) and ``pivot`` (f,) of the operator in a band, see
     :func:`~softway.kernels.slab.band.spread_factor`, and the ``active`` rows (k,): the answers
-    ``answer`` (k, N) to a unit impulse on each, and the ``inverse`` (k, k) of their compliance.
+    ``answer`` (k, N) to a unit impulse on each, and the ``inverse`` (k, k) of their compliance.  Tangential rows
+    ``slip`` (j,) have ``factor`` (j,) times the impulse of their normal row ``partner`` (j,), in its answer as well.
     """
 
     down: Array
@@ -62,11 +73,14 @@ class Operator(NamedTuple):
     active: IntArray
     answer: Array
     inverse: Array
+    slip: IntArray
+    partner: IntArray
+    factor: Array
 
 
 class Course(NamedTuple):
     """States of successive slabs: ``time`` (s + 1,); ``u``, ``v``, ``slope`` and ``force`` (s + 1, N), ``pressure``
-    (s + 1, m), ``energy`` (s + 1, parts); ``scalar`` (s, parts) of the energy balance; ``support`` (s, N), without a
+    (s + 1, M), ``energy`` (s + 1, parts); ``scalar`` (s, parts) of the energy balance; ``support`` (s, N), without a
     row where nothing is supported; ``sums`` (s, SUMS) and, of the contacts, ``met`` (s, contacts, MET).
     """
 
@@ -114,20 +128,37 @@ bodies_at = table(
     stiff=BLOCKS,
     points=NUMBERS,
     load=NUMBERS,
+    load_before=NUMBERS,
+    given=NUMBERS,
+    bent=NUMBERS,
     floor=NUMBERS,
 )
 rows_at = table(
     "Rows",
+    normals=WHOLE,
     start=WHOLES,
     component=WHOLES,
     value=NUMBERS,
+    before=NUMBERS,
     offset=NUMBERS,
+    moved=NUMBERS,
     contact=WHOLES,
     part=WHOLES,
     move=FLAGS,
     allowed=NUMBERS,
 )
-operator_at = table("Operator", down=ROWS, up=ROWS, pivot=NUMBERS, active=WHOLES, answer=ROWS, inverse=ROWS)
+operator_at = table(
+    "Operator",
+    down=ROWS,
+    up=ROWS,
+    pivot=NUMBERS,
+    active=WHOLES,
+    answer=ROWS,
+    inverse=ROWS,
+    slip=WHOLES,
+    partner=WHOLES,
+    factor=NUMBERS,
+)
 course_at = table(
     "Course",
     time=NUMBERS,
@@ -147,12 +178,13 @@ work_at = table(
 )
 """The tables at addresses, for kernels."""
 
-KINETIC, STRAIN, WORK, ERROR, MOMENTUM, SPIN, UNCLOSED, COMPLEMENTARITY, POWER, ITERATIONS, FIRST, LAST = (
-    0, 1, 2, 3, 4, 7, 10, 11, 12, 13, 14, 15,
+KINETIC, STRAIN, WORK, ERROR, MOMENTUM, SPIN, UNCLOSED, COMPLEMENTARITY, POWER, ITERATIONS, FIRST, LAST, LOST = (
+    0, 1, 2, 3, 4, 7, 10, 11, 12, 13, 14, 15, 16,
 )  # fmt: skip
 """Columns of the sums of a slab: energies and works as in the ledger, momentum and spin (3 each), momentum error,
-complementarity and power of the certificate, number of iterations, and the first and the last change [m/s]."""
-SUMS = 16
-FORCE, GAP, CLOSED_POWER, COUNT = range(4)
-"""Columns of a contact: force, least gap, power residual, and number of closed rows."""
-MET = 4
+complementarity and power of the certificate, number of iterations, the first and the last change [m/s], and the
+energy dissipated so far."""
+SUMS = 17
+FORCE, GAP, CLOSED_POWER, COUNT, FORCE_T = range(5)
+"""Columns of a contact: force, least gap, power residual, number of closed rows, and tangential force."""
+MET = 5

@@ -1,92 +1,154 @@
 """Model with linear laws on fixed contact rows as arrays for compiled slabs (docs/theory/solver/compiled_slabs.md)."""
 
 from dataclasses import dataclass, field
-from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
-from scipy.sparse.csgraph import reverse_cuthill_mckee
 
-from softway.arrays import Array, BoolArray, IntArray
+from softway.arrays import Array, IntArray
 from softway.bodies.assembled.vector_space import LocalSpace
 from softway.bodies.dof_map import NodalDofs
 from softway.bodies.elements.section import Axisymmetric
 from softway.bodies.internal_force.elastic.elastic_force import ElasticForce
 from softway.bodies.internal_force.slab_average import Weighted
+from softway.contact.contact_rows import ContactRows
 from softway.kernels.jit.by_address import packed
-from softway.kernels.slab.band import spread_factor
-from softway.kernels.slab.march import answer, factor
+from softway.kernels.slab.apart import Surfaces
+from softway.kernels.slab.march import answer
 from softway.kernels.slab.tables import Bodies, Operator, Rows
 from softway.marching.rules.equilibrated import EndForceContact, Equilibrated
+from softway.marching.slab.band import BandFactor, BandOrder, band_order, banded_factor
+from softway.marching.slab.rows.apart import MetSurfaces, may_stay_apart, met_surfaces, surfaces_of
+from softway.marching.slab.rows.driven import supports_move_mass, tools_keep_direction
+from softway.marching.slab.rows.friction import HeldRows, every_row, held_rows, proportional
 from softway.marching.slab.slab_step import Stepper
 from softway.marching.state.march_state import Settings
+from softway.marching.state.model_state import ModelState
 from softway.marching.state.step_control import SMALL_STRAIN
 from softway.model.model import Model
 from softway.model.time_weight import EndPeaks, moments
+from softway.solve.equations.energy_balance import body_groups
 from softway.solve.methods.fixed_point import FixedPoint
 
 SLABS = 200
 """Number of slabs of a march from which compiled ones pay: the others take less than the compilation of the kernels,
 and half a second where these are compiled.
 """
-LARGEST = 3e5
-"""Greatest number of entries of the band of a factor: beyond it, sparse factors are faster."""
 TRANSLATED = 1e-12
 """Force of a translation, relative to the stiffness, that is rounding."""
 INVERTED = 1e-6
 """Greatest error of the inverse compliance of the closed rows: rows that depend on each other have none."""
 
 
-class BandFactor(NamedTuple):
-    """Factor in a band: ``down`` and ``up`` (f, w + 4), see :func:`~softway.kernels.slab.band.spread_factor`, and
-    ``pivot`` (f,).
-    """
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class SlabTables:
+    """Tables of slabs with the same closed rows, and their contact rows."""
 
-    down: Array
-    up: Array
-    pivot: Array
+    bodies: Bodies
+    rows: Rows
+    operator: Operator
+    surfaces: Surfaces | None
+    contact_rows: ContactRows
+    held: HeldRows
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class CompiledModel:
-    """Arrays of a model for slabs of the length ``span`` [s]; with the ``factor`` of their operator.
+    """Arrays of a model for slabs of the length ``span`` [s], or less where these end at the instants ``ends``.
 
-    ``operators`` keeps that of the last closed rows; it depends on these rows only.
+    ``order`` is that of the unknowns in a band; ``surfaces`` are those of solids that may touch each other; ``factors``
+    and ``last`` keep the factors of the last length and the tables of the last closed rows, which depend on these only.
     """
 
     model: Model
     bodies: Bodies
-    rows: Rows
+    order: BandOrder
     span: float
-    factor: BandFactor
+    ends: tuple[float, ...]
     tolerance: float
-    operators: dict[bytes, Operator | None] = field(default_factory=dict)
+    settings: Settings
+    surfaces: Surfaces | None
+    factors: dict[float, BandFactor | None] = field(default_factory=dict)
+    last: dict[str, SlabTables | None] = field(default_factory=dict)
 
-    def operator(self, closed: BoolArray) -> Operator | None:
-        """Operator with the rows ``closed`` (m,); None if they depend on each other."""
-        key = closed.tobytes()
-        if key not in self.operators:
-            self.operators.clear()
-            self.operators[key] = self._made(np.flatnonzero(closed))
-        return self.operators[key]
+    def factor(self, span: float) -> BandFactor | None:
+        """Factor of the operator of slabs of the length ``span`` [s]; None if it is not positive definite."""
+        if span not in self.factors:
+            self.factors.clear()
+            self.factors[span] = banded_factor(_operator(self.model, self.settings, span), self.order)
+        return self.factors[span]
 
-    def _made(self, active: IntArray) -> Operator | None:
-        answers, work = np.zeros((len(active), len(self.bodies.heavy))), np.empty(len(self.factor.pivot))
-        tables = packed(self.bodies), packed(self.rows)
-        for row, out in zip(active, answers, strict=True):
-            answer(*(each.ctypes.data for each in tables), row, *self.factor, work, out)
-        compliance = answers @ _gradient(self.rows, len(self.bodies.heavy))[active].T
-        inverse = np.zeros((len(active), len(active)))
-        if len(active):
-            if not np.linalg.cond(compliance) * np.finfo(float).eps < INVERTED:
-                return None
-            inverse = np.linalg.inv(compliance.T)
-        return Operator(*self.factor, active=active, answer=answers, inverse=inverse)
+    def tables(self, now: ModelState, span: float) -> SlabTables | None:
+        """Tables for slabs of the length ``span`` [s] from a state on; None if closed rows depend on each other, rows
+        change, or the operator is not positive definite.
+        """
+        met = met_surfaces(self.model, self.surfaces, now, span)
+        if met is None:
+            return None
+        held = held_rows(self.model, met.rows, now)
+        if held is None:
+            return None
+        key = (held.key + met.rows.near.tobytes() + met.rows.gradient.indices.tobytes()).hex() + span.hex()
+        if key not in self.last:
+            self.last.clear()
+            self.last[key] = self._made(met, held, span)
+        return self.last[key]
+
+    def _made(self, met: MetSurfaces, held: HeldRows, span: float) -> SlabTables | None:
+        """Tables of rows that are held."""
+        found = self.factor(span)
+        if found is None:
+            return None
+        rows = rows_of(self.model, self.settings, met.rows)
+        operator = operator_of(self.bodies, rows, every_row(met.rows), found, held)
+        if operator is None:
+            return None
+        closed = np.isin(np.arange(len(met.rows.node)), held.active)
+        return SlabTables(
+            bodies=self.bodies._replace(group=_whole(body_groups(self.model, (met.rows, closed)))),
+            rows=rows,
+            operator=operator,
+            surfaces=met.table,
+            contact_rows=met.rows,
+            held=held,
+        )
 
 
-def _gradient(rows: Rows, size: int) -> sp.csr_array:
-    """Rows (m, N) as a sparse matrix."""
-    return sp.csr_array((rows.value, rows.component, rows.start), shape=(len(rows.offset), size))
+def operator_of(bodies: Bodies, rows: Rows, every: sp.csr_array, found: BandFactor, held: HeldRows) -> Operator | None:
+    """Operator with the rows that are held, of ``every`` row (M, N); None if their forces are not unique."""
+    answers = _answers(bodies, rows, held.active, found)
+    slips = _answers(bodies, rows, held.slip, found)
+    for each, partner, ratio in zip(slips, held.partner, held.factor, strict=True):
+        answers[held.active == partner] += ratio * each
+    compliance = answers @ every[held.active].T
+    inverse = np.zeros((len(held.active), len(held.active)))
+    if len(held.active):
+        if not np.linalg.cond(compliance) * np.finfo(float).eps < INVERTED or not _positive(compliance):
+            return None
+        inverse = np.linalg.inv(compliance.T)
+    return Operator(
+        *found,
+        active=held.active,
+        answer=answers,
+        inverse=inverse,
+        slip=held.slip,
+        partner=held.partner,
+        factor=held.factor,
+    )
+
+
+def _answers(bodies: Bodies, rows: Rows, which: IntArray, found: BandFactor) -> Array:
+    """Answers (k, N) to unit impulses on some rows (k,)."""
+    out, work = np.zeros((len(which), len(bodies.heavy))), np.empty(len(found.pivot))
+    tables = packed(bodies), packed(rows)
+    for row, each in zip(which, out, strict=True):
+        answer(*(table.ctypes.data for table in tables), row, *found, work, each)
+    return out
+
+
+def _positive(matrix: Array) -> bool:
+    """True if the symmetric part of a matrix (k, k) is positive definite: then no other forces hold the rows."""
+    return bool(np.linalg.eigvalsh(matrix + matrix.T).min() > 0.0)
 
 
 def served(stepper: Stepper, settings: Settings) -> bool:
@@ -99,7 +161,6 @@ def served(stepper: Stepper, settings: Settings) -> bool:
         and rule.calm == 0.0
         and settings.weight == EndPeaks()
         and settings.tolerance is None
-        and not stepper.ends
         and _fixed(model)
         and all(_linear(part.internal) and part.shock is None for part in model.parts)
         and all(isinstance(part.average, Weighted) for part in model.parts)
@@ -108,10 +169,11 @@ def served(stepper: Stepper, settings: Settings) -> bool:
 
 def _fixed(model: Model) -> bool:
     """True if nothing but the motion of solids with inertia changes from slab to slab."""
-    alone = not (model.companions or model.driven or model.adapted) and model.rigid is None
+    alone = not (model.companions or model.adapted) and model.rigid is None and supports_move_mass(model)
     plain = isinstance(model.dofs, NodalDofs) and isinstance(model.space, LocalSpace)
-    still = model.loads.steady and np.array_equal(model.load, model.load_before) and model.inert
-    met = model.contacts.fixed and model.friction.frictionless and model.contacts.clearance is None
+    still = not model.loads.steady or np.array_equal(model.load, model.load_before)
+    known = tools_keep_direction(model.contacts) and may_stay_apart(model.contacts)
+    met = known and proportional(model) and model.contacts.clearance is None and model.inert
     return bool(alone and plain and still and met and model.linear)
 
 
@@ -124,55 +186,29 @@ def compiled_model(stepper: Stepper, settings: Settings, span: float) -> Compile
     model = stepper.model
     if settings.until < SLABS * span or not served(stepper, settings):
         return None
-    matrix = sp.csr_array(
-        model.inertia_and_stiffness(np.zeros(model.shape), 0.5 * span**2 * moments(settings.weight)[1])
-    )
-    order = band_order(matrix)
+    order = band_order(_operator(model, settings, span))
     if order is None:
         return None
-    found = banded_factor(matrix, order)
-    if found is None:
-        return None
-    bodies, rows = bodies_of(model, order.place), rows_of(model, settings)
+    bodies = bodies_of(model, order.place)
     if bodies is None:
         return None
     assert isinstance(stepper.method, FixedPoint)
-    tolerance = stepper.method.tolerance
-    return CompiledModel(model=model, bodies=bodies, rows=rows, span=span, factor=found, tolerance=tolerance)
+    compiled = CompiledModel(
+        model=model,
+        bodies=bodies,
+        order=order,
+        span=span,
+        ends=stepper.ends,
+        tolerance=stepper.method.tolerance,
+        settings=settings,
+        surfaces=surfaces_of(model.contacts),
+    )
+    return None if compiled.factor(span) is None else compiled
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class BandOrder:
-    """Places (f,) of the unknowns in a band with ``width`` diagonals, after the ordering of Cuthill and McKee."""
-
-    place: IntArray
-    width: int
-
-
-def band_order(matrix: sp.csr_array) -> BandOrder | None:
-    """Order of a symmetric matrix (f, f) in a band; None if it is empty, or the band too large."""
-    if not matrix.shape[0]:
-        return None
-    order = np.asarray(reverse_cuthill_mckee(matrix, symmetric_mode=True), np.int64)
-    place = np.empty(len(order), np.int64)
-    place[order] = np.arange(len(order))
-    i, j = sp.coo_array(matrix).coords
-    width = int(np.abs(place[i] - place[j]).max(initial=0)) + 1
-    return None if width * len(order) > LARGEST else BandOrder(place, width)
-
-
-def banded_factor(matrix: sp.csr_array, order: BandOrder) -> BandFactor | None:
-    """Factor in a band; None if the matrix is not positive definite."""
-    entries = sp.coo_array(matrix)
-    i, j = (order.place[c] for c in entries.coords)
-    below, shape = i >= j, (matrix.shape[0], order.width)
-    band, lower, pivot = np.zeros(shape), np.zeros(shape), np.zeros(shape[0])
-    band[i[below], (i - j)[below]] = entries.data[below]
-    if not factor(band, lower, pivot):
-        return None
-    down, up = (np.zeros((shape[0], shape[1] + 3)) for _ in range(2))
-    spread_factor(lower, down, up)
-    return BandFactor(down, up, pivot)
+def _operator(model: Model, settings: Settings, span: float) -> sp.csr_array:
+    """Operator (f, f) of slabs of the length ``span`` [s]."""
+    return sp.csr_array(model.inertia_and_stiffness(np.zeros(model.shape), 0.5 * span**2 * moments(settings.weight)[1]))
 
 
 def bodies_of(model: Model, place: IntArray) -> Bodies | None:
@@ -207,20 +243,26 @@ def bodies_of(model: Model, place: IntArray) -> Bodies | None:
         stiff_node=_whole(stiff.indices[others]),
         stiff=np.ascontiguousarray(stiff.data[others]),
         points=np.ascontiguousarray(model.points, float).ravel(),
-        load=np.ascontiguousarray(model.load, float).ravel(),
+        load=np.array(model.load, float).ravel(),
+        load_before=np.array(model.load_before, float).ravel(),
+        given=np.zeros(n * d),
+        bent=np.zeros(n * d),
         floor=np.asarray(model.floor, float),
     )
 
 
-def rows_of(model: Model, settings: Settings) -> Rows:
-    """Arrays of the contact rows."""
-    rows = model.contacts.rest(np.zeros(model.shape), 0.0).start(np.zeros(model.shape))
-    gradient = sp.csr_array(rows.gradient)
+def rows_of(model: Model, settings: Settings, rows: ContactRows) -> Rows:
+    """Arrays of contact rows."""
+    every, m = every_row(rows), len(rows.node)
+    offset = np.concatenate([rows.offset, np.zeros(every.shape[0] - m)])
     return Rows(
-        start=_whole(gradient.indptr),
-        component=_whole(gradient.indices),
-        value=gradient.data.astype(float),
-        offset=np.asarray(rows.offset, float),
+        normals=m,
+        start=_whole(every.indptr),
+        component=_whole(every.indices),
+        value=every.data.astype(float),
+        before=offset.copy(),
+        offset=offset,
+        moved=np.zeros(len(offset)),
         contact=_whole(rows.contact),
         part=_whole(model.part_of[rows.node]),
         move=rows.reachable(model.dofs),

@@ -18,6 +18,7 @@ from softway.kernels.slab.tables import (
     ITERATIONS,
     KINETIC,
     LAST,
+    LOST,
     MET,
     MOMENTUM,
     POWER,
@@ -103,7 +104,7 @@ def next_resident(
         course=_course(resident, states, sums, met),
         iterations=iterations,
         contractions=contractions(sums[: len(lengths)], iterations),
-        pairs=model.contacts.rest(model.displacement, 0.0).found,
+        rows=model.contacts.rest(model.displacement, 0.0).start(model.displacement),
         states={0: before},
         lengths=tuple(lengths),
     )
@@ -118,7 +119,7 @@ def _filled(sums: Array, met: Array, told: Any, energy: Array, account: EnergyAc
     sums[MOMENTUM : MOMENTUM + 3], sums[SPIN : SPIN + 3] = told.sums[2:5], told.sums[5:8]
     sums[UNCLOSED] = np.abs(told.sums[8:11]).max()
     sums[POWER], sums[COMPLEMENTARITY] = told.met[:, 1].sum(), told.met[:, 2].sum()
-    sums[ITERATIONS], sums[FIRST], sums[LAST] = 1.0, 0.0, 0.0
+    sums[ITERATIONS], sums[FIRST], sums[LAST], sums[LOST] = 1.0, 0.0, 0.0, account.dissipation
     met[:, FORCE], met[:, CLOSED_POWER], met[:, COUNT] = told.met[:, 0], told.met[:, 1], told.met[:, 3]
     met[:, GAP] = -told.worst[:, 0]
 

@@ -6,8 +6,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from softway.arrays import Array
-from softway.kernels.slab.tables import ERROR, FIRST, LAST, WORK, Course
-from softway.marching.state.march_state import MarchState
+from softway.contact.contact_rows import ContactRows
+from softway.kernels.slab.tables import ERROR, FIRST, LAST, LOST, WORK, Course
+from softway.marching.slab.rows.driven import rows_at
+from softway.marching.slab.rows.friction import slip_velocity
+from softway.marching.state.march_state import EnergyAccount, MarchState
 from softway.marching.state.model_state import ModelState, split_states
 from softway.mechanisms.step import BodyState
 from softway.model.model import Model
@@ -31,8 +34,8 @@ class SlabBatch:
         States and sums of the slabs, and number of iterations of each.
     contractions
         Mean ratio of successive changes in each slab.
-    pairs
-        Pairs of the contact search, the same in all slabs.
+    rows
+        Contact rows, the same in all slabs.
     states
         States that were asked for, by the number of slabs before them.
     lengths
@@ -49,11 +52,16 @@ class SlabBatch:
     course: Course
     iterations: tuple[int, ...]
     contractions: tuple[float, ...]
-    pairs: int
+    rows: ContactRows
     states: dict[int, State]
     lengths: tuple[float, ...] = ()
     shapes: Array | None = None
     worn: bool = False
+
+    @property
+    def pairs(self) -> int:
+        """Pairs of the contact search of each slab."""
+        return int(np.count_nonzero(self.rows.near))
 
     def state(self, count: int) -> State:
         """State after so many slabs; made when it is asked for, and then kept."""
@@ -76,15 +84,28 @@ class SlabBatch:
         return replace(
             begun,
             state=self._state(count),
-            account=replace(begun.account, work_external=float(sums[WORK]), energy_error=float(sums[ERROR])),
+            account=self._account(sums),
             step_history=history,
             memory=self.memory_after(count).bare(),
             slabs=begun.slabs + count,
         )
 
+    def _account(self, sums: Array) -> EnergyAccount:
+        """Energy account after a slab with these sums."""
+        return replace(
+            self.begun.account,
+            work_external=float(sums[WORK]),
+            energy_error=float(sums[ERROR]),
+            dissipation=float(sums[LOST]),
+        )
+
     def _state(self, count: int) -> ModelState:
         """State of the model after so many slabs."""
         course, shape, first = self.course, self.model.shape, self.begun.state
+        before, time = (float(course.time[k]) for k in (count - 1, count))
+        m, rows, u0 = len(first.pressure), self.rows, course.u[count - 1]
+        pressure, shear = course.pressure[count][:m], course.pressure[count][m:]
+        moved = (course.u[count] - u0).reshape(shape)
         start = SlabStart(
             displacement=course.u[count].reshape(shape),
             velocity=course.v[count].reshape(shape),
@@ -94,14 +115,16 @@ class SlabBatch:
             viscous=None,
         )
         return ModelState(
-            time=float(course.time[count]),
+            time=time,
             start=start,
             acceleration=course.slope[count].reshape(shape),
-            closed=course.pressure[count] > 0.0,
-            pressure=course.pressure[count],
-            traction=np.zeros_like(first.traction),
-            sliding=np.zeros_like(first.sliding),
-            span=float(course.time[count] - course.time[count - 1]),
+            closed=pressure > 0.0,
+            pressure=pressure,
+            traction=rows.shear.vectors(rows.shear.components(shear)) if len(shear) else np.zeros_like(first.traction),
+            sliding=first.sliding if len(shear) else np.zeros_like(first.sliding),
+            slip=slip_velocity(self.model, rows, moved, (before, time)),
+            rows=rows_at(self.model, self.rows, time) if self.model.contacts.paired else None,
+            span=time - before,
         )
 
 

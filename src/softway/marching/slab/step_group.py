@@ -15,8 +15,10 @@ from softway.kernels.slab.tables import (
     COUNT,
     ERROR,
     FORCE,
+    FORCE_T,
     GAP,
     KINETIC,
+    LOST,
     MOMENTUM,
     POWER,
     SPIN,
@@ -206,7 +208,7 @@ def _report(batch: SlabBatch, iterations: int, ratio: float, scalars: Any) -> Re
 def _contact(met: Any, count: int) -> ContactLedger:
     """Audit of a contact from its sums."""
     return ContactLedger(
-        force_n=met[FORCE], force_t=0.0, min_gap=met[GAP], power_residual=met[CLOSED_POWER], count=count
+        force_n=met[FORCE], force_t=met[FORCE_T], min_gap=met[GAP], power_residual=met[CLOSED_POWER], count=count
     )
 
 
@@ -217,7 +219,7 @@ def _ledger(batch: SlabBatch, row: Any, contacts: Mapping[str, ContactLedger], s
         energy_kinetic=row[KINETIC],
         energy_strain=row[STRAIN],
         work_external=row[WORK],
-        dissipation=account.dissipation,
+        dissipation=row[LOST],
         energy_error=row[ERROR],
         momentum=vectors[MOMENTUM : MOMENTUM + 3],
         spin=vectors[SPIN : SPIN + 3],

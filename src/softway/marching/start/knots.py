@@ -45,7 +45,11 @@ def slab_ends(model: Model, settings: Settings, span: float) -> tuple[float, ...
 
 def slab_length(ends: tuple[float, ...], march_state: MarchState) -> float:
     """Length [s] of the next slab, at most the proposed one: it divides the time to the next end evenly."""
-    settings, history, time = march_state.settings, march_state.step_history, march_state.state.time
+    return length_at(ends, march_state.settings, march_state.step_history, march_state.state.time)
+
+
+def length_at(ends: tuple[float, ...], settings: Settings, history: StepHistory, time: float) -> float:
+    """Length [s] of a slab that begins at a time [s], see :func:`slab_length`."""
     least, until, lowest = settings.control.least * history.span, settings.until, min(history.length, history.span)
     sliver = max(SLIVER * lowest, least)
     for end in ends:
@@ -53,6 +57,12 @@ def slab_length(ends: tuple[float, ...], march_state: MarchState) -> float:
             return _within(evenly(end - time, lowest), history, end - time)
     length = _within(min(lowest, until - time), history, until - time)
     return until - time if until - time - length < least else length
+
+
+def end_after(ends: tuple[float, ...], march_state: MarchState, time: float) -> float:
+    """End [s] of a slab from ``time`` of the length that the march state proposes."""
+    settings = march_state.settings
+    return slab_end(ends, settings.until, time, length_at(ends, settings, march_state.step_history, time))
 
 
 def _within(lowest: float, history: StepHistory, left: float) -> float:

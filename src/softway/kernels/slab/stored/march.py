@@ -9,7 +9,7 @@ import numpy as np
 
 from softway.kernels.jit.compilation import merged, uncounted_kernel
 from softway.kernels.slab.audit import audited
-from softway.kernels.slab.march import UNIT, arrive, expect, press, stays
+from softway.kernels.slab.march import UNIT, add_impulses, arrive, expect, press, stays
 from softway.kernels.slab.products import extent, greatest, momenta
 from softway.kernels.slab.stored.closure import certain, close
 from softway.kernels.slab.stored.force import stored_forces
@@ -33,6 +33,7 @@ from softway.kernels.slab.tables import (
     FIRST,
     ITERATIONS,
     LAST,
+    LOST,
     bodies_at,
     course_at,
     operator_at,
@@ -58,7 +59,7 @@ def stored_slabs(places, account, wanted):
     """Compute up to ``wanted`` slabs from the first state of a course, and return how many were computed.
 
     ``places`` (7,) are the addresses of the tables of bodies, rows, operator, course, work, search and turning.
-    ``account`` (3,) are the energy at the start less losses, external work, and error of the balance before.
+    ``account`` (4,) are energy at the start of the march, external work, error and dissipated energy.
     """
     bodies, rows, operator = bodies_at(places[0]), rows_at(places[1]), operator_at(places[2])
     course, work = course_at(places[3]), work_at(places[4])
@@ -67,6 +68,7 @@ def stored_slabs(places, account, wanted):
     for s in range(wanted):
         if not _slab(bodies, rows, operator, course, work, search, turning, s):
             return s
+        course.sums[s, LOST] = account[3]
         if not audited(bodies, rows, course, work, account, s):
             return s
         for c in range(len(work.q)):
@@ -178,12 +180,7 @@ def _corrected(bodies, rows, operator, course, work, turning, h, s):
                 load = bodies.load[c]
                 mean = h * (first * f0[c] + last * f1[c] - load)
                 x[bodies.place[c]] = -(work.push[c] + mean) if bodies.heavy[c] else -h * UNIT * (f1[c] - load)
-    impulse = course.pressure[s + 1]
-    for k in range(len(operator.active)):
-        r = operator.active[k]
-        for e in range(rows.start[r], rows.start[r + 1]):
-            if bodies.place[rows.component[e]] >= 0:
-                x[bodies.place[rows.component[e]]] += rows.value[e] * impulse[r]
+    add_impulses(bodies, rows, operator.active, course.pressure[s + 1], x)
     solve_turned(bodies, operator, turning, x[: len(operator.pivot)])
     for c in range(len(field)):
         field[c] = x[bodies.place[c]] if bodies.place[c] >= 0 else 0.0

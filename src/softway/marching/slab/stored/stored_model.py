@@ -15,6 +15,7 @@ from softway.bodies.elements.section import PlaneStrain, Volume
 from softway.bodies.internal_force.elastic.elastic_force import ElasticForce
 from softway.bodies.internal_force.elastic.kernel_evaluation import KernelEvaluation
 from softway.bodies.internal_force.slab_average import Weighted
+from softway.contact.contact_rows import ContactRows
 from softway.kernels.jit.by_address import packed
 from softway.kernels.jit.lanes import LANES
 from softway.kernels.slab.stored.force import solid_forces
@@ -22,14 +23,9 @@ from softway.kernels.slab.stored.tables import Cells, Stored, Turning
 from softway.kernels.slab.tables import Bodies, Operator, Rows
 from softway.marching.audit.folded_cells import WatchedCells, watched_cells
 from softway.marching.rules.equilibrated import EndForceContact, Equilibrated
-from softway.marching.slab.compiled_model import (
-    BandOrder,
-    CompiledModel,
-    band_order,
-    banded_factor,
-    bodies_of,
-    rows_of,
-)
+from softway.marching.slab.band import BandFactor, BandOrder, band_order, banded_factor
+from softway.marching.slab.compiled_model import bodies_of, operator_of, rows_of
+from softway.marching.slab.rows.friction import every_row, without_friction
 from softway.marching.slab.slab_step import Stepper
 from softway.marching.state.march_state import Settings
 from softway.model.model import Model
@@ -61,12 +57,13 @@ class Tables:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FrozenFactor:
-    """Factor of an operator with the operators of closed rows, as for linear laws, and the deformation ``gradient``
-    (n, d, d) at the nodes where it was made.
+    """Factor of an operator and the deformation ``gradient`` (n, d, d) at the nodes where it was made; ``operators``
+    keeps that of the last closed rows.
     """
 
-    compiled: CompiledModel
+    factor: BandFactor
     gradient: Array
+    operators: dict[bytes, Operator | None] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -81,6 +78,7 @@ class StoredModel:
     model: Model
     method: FixedPoint
     bodies: Bodies
+    contact_rows: ContactRows
     rows: Rows
     solids: Tables
     order: BandOrder
@@ -104,7 +102,7 @@ class StoredModel:
         Rows are solved for in axes that turn where they are ``mixed``.
         """
         factor = self.factor(origin)
-        operator = None if factor is None else factor.compiled.operator(closed)
+        operator = None if factor is None else self._closed(factor, closed)
         if factor is None or operator is None:
             return None
         if mixed:
@@ -134,15 +132,18 @@ class StoredModel:
         found = banded_factor(sp.csr_array(origin.stiffness(self.model).operator(origin.at)), self.order)
         if found is None:
             return None
-        compiled = CompiledModel(
-            model=self.model,
-            bodies=self.bodies,
-            rows=self.rows,
-            span=self.span,
-            factor=found,
-            tolerance=self.method.tolerance,
-        )
-        return FrozenFactor(compiled, self.turning.gradient(origin.at))
+        return FrozenFactor(found, self.turning.gradient(origin.at))
+
+    def _closed(self, frozen: FrozenFactor, closed: BoolArray) -> Operator | None:
+        """Operator of a factor with closed rows (m,); None if these depend on each other."""
+        key = closed.tobytes()
+        if key not in frozen.operators:
+            frozen.operators.clear()
+            held = without_friction(closed)
+            frozen.operators[key] = operator_of(
+                self.bodies, self.rows, every_row(self.contact_rows), frozen.factor, held
+            )
+        return frozen.operators[key]
 
 
 def stored_model(stepper: Stepper, settings: Settings, span: float) -> StoredModel | None:
@@ -156,13 +157,18 @@ def stored_model(stepper: Stepper, settings: Settings, span: float) -> StoredMod
     bodies = None if order is None else bodies_of(model, order.place)
     if order is None or bodies is None:
         return None
-    rows, turning = rows_of(model, settings), nodal_rotation(model.parts)
+    found, turning = (
+        model.contacts.rest(np.zeros(model.shape), 0.0).start(np.zeros(model.shape)),
+        nodal_rotation(model.parts),
+    )
+    rows = rows_of(model, settings, found)
     crushable = np.array([not part.internal.linear for part in model.parts])[rows.part]
-    edge = model.edge[model.contacts.rest(np.zeros(model.shape), 0.0).start(np.zeros(model.shape)).node]
+    edge = model.edge[found.node]
     return StoredModel(
         model=model,
         method=method,
         bodies=bodies,
+        contact_rows=found,
         rows=rows._replace(allowed=np.where(crushable, settings.control.approach * edge, rows.allowed)),
         solids=_stored(model),
         order=order,

@@ -52,7 +52,7 @@ def next_stored(
         course=course,
         iterations=iterations,
         contractions=contractions(course.sums[:count], iterations),
-        pairs=model.contacts.rest(model.displacement, 0.0).found,
+        rows=stored.contact_rows,
         states={0: before},
         shapes=shapes[:count],
         worn=worn and count == computed,
@@ -72,9 +72,11 @@ def _computed(
     if found is None:
         return None
     operator, turning = found
-    course, search = new_course(stored.model, now, wanted, stored.span), _search(stored, march_state, memory)
-    start = account.energy_start - account.dissipation - account.remeshing
-    told = np.array([start, account.work_external, account.energy_error])
+    times = np.cumsum([now.time, *(stored.span for _ in range(wanted))])
+    course = new_course(stored.model, now, stored.contact_rows, times)
+    search = _search(stored, march_state, memory)
+    start = account.energy_start - account.remeshing
+    told = np.array([start, account.work_external, account.energy_error, account.dissipation])
     work = new_work(stored.bodies, stored.rows)
     tables = Tables.of((stored.bodies, stored.rows, operator, course, work, search, turning))
     return course, int(stored_slabs(tables.places, told, wanted)), bool(search.taken[DEAR])
