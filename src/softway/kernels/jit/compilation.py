@@ -82,9 +82,7 @@ def stage(function: Callable[..., None]) -> Stage:
 
 
 def asked(function: Callable[..., int]) -> Any:
-    """Compile an optional part of kernels, which they :func:`~softway.kernels.jit.by_address.ask` by its address, and cache
-    it on disk.
-    """
+    """Compile an optional part of kernels, which these call by its address, and cache it on disk."""
     return _kept(lambda **options: cfunc(_PART_ASKED, **options), function, _EXACT | _UNCOUNTED)
 
 
