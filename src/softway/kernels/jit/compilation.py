@@ -103,9 +103,7 @@ def function_at(kind: Any, function: Callable[..., int]) -> Stage:
 
 
 def asked(function: Callable[..., int]) -> Any:
-    """Compile an optional part of kernels, which they call by its address, and cache it on disk; see
-    :func:`~softway.kernels.jit.by_address.ask`.
-    """
+    """Compile an optional part of kernels, which these call by its address, and cache it on disk."""
     return _kept(lambda **options: cfunc(_PART_ASKED, **options), function, _EXACT | _UNCOUNTED)
 
 
