@@ -20,6 +20,7 @@ from softway.laws.law import Damped, Viscous
 from softway.marching.remeshing.carried.kept_contacts import KeptContacts
 from softway.marching.remeshing.carried.surface_forces import SurfaceForces
 from softway.model.model import Model
+from softway.solve.proximal_equilibrium import proximal_equilibrium
 from softway.solve.static_equilibrium import InitialSlip, StaticState, equilibrium
 
 log = logging.getLogger(__name__)
@@ -89,21 +90,19 @@ class Unsettled:
             return StaticState.apart(u, len(rows.node))
         carried, glue = self.friction, model.bonds
         if carried is None or not dofs.size:
-            return equilibrium(model, u, dofs, load, self.time, glue=glue)
-        sticks = InitialSlip(reference=u, velocity=np.zeros((len(model.contacts.contact), u.shape[1])))
+            return _smooth(model, u, dofs, load, self.time)
+        none = np.zeros((len(model.contacts.contact), u.shape[1]))
+        sticks = InitialSlip(reference=u, velocity=none)
         tries: tuple[tuple[str, Callable[[], StaticState]], ...] = (
-            ("the friction of the places", lambda: self._rubbing(model, carried, dofs, load)),
-            (
-                "rows that stick",
-                lambda: equilibrium(model, u, dofs, load, self.time, friction=sticks, glue=model.bonds),
-            ),
+            ("friction of the places", lambda: self._rubbing(model, carried, dofs, load)),
+            ("sticking", lambda: equilibrium(model, u, dofs, load, self.time, friction=sticks, glue=glue)),
         )
         for name, found in tries:
             try:
                 return found()
             except NumericsError as failure:
-                log.info("no equilibrium under %s at t = %.6g s: %s", name, self.time, failure.what)
-        return equilibrium(model, u, dofs, load, self.time, glue=glue)
+                log.info("massless nodes at t = %.6g s, %s: %s", self.time, name, failure.what)
+        return _smooth(model, u, dofs, load, self.time)
 
     def _rubbing(self, model: Model, carried: SurfaceForces, dofs: DofMap, load: Array) -> StaticState:
         """Equilibrium under the friction of the places."""
@@ -119,6 +118,15 @@ class Unsettled:
             if model.space.greatest(traction - last) <= EXACT * model.space.greatest(traction):
                 break
         return replace(rest, traction=traction, sliding=sliding)
+
+
+def _smooth(model: Model, u: Array, dofs: DofMap, load: Array, time: float) -> StaticState:
+    """Equilibrium without friction, from the displacement u (n, d)."""
+    try:
+        return equilibrium(model, u, dofs, load, time, glue=model.bonds)
+    except NumericsError as failure:
+        log.info("massless nodes at t = %.6g s, no friction: %s", time, failure.what)
+    return proximal_equilibrium(model, u, dofs, load, time, model.bonds)
 
 
 def _changing(part: DiscreteSolid, state: MaterialState | None, span: float) -> DiscreteSolid:
