@@ -16,8 +16,8 @@ from softway.meshes.generators.shapes import rectangle
 from softway.model.build import build
 from softway.model.model import Model
 from softway.model.scene import Scene
-from softway.solve.proximal_equilibrium import proximal_equilibrium
-from softway.solve.static_equilibrium import equilibrium
+from softway.solve.static.proximal_equilibrium import proximal_equilibrium
+from softway.solve.static.static_equilibrium import equilibrium
 
 
 def pulled(model: Model, acceleration: float | tuple[float, ...]) -> np.ndarray:

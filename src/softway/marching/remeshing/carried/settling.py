@@ -20,8 +20,8 @@ from softway.laws.law import Damped, Viscous
 from softway.marching.remeshing.carried.kept_contacts import KeptContacts
 from softway.marching.remeshing.carried.surface_forces import SurfaceForces
 from softway.model.model import Model
-from softway.solve.proximal_equilibrium import proximal_equilibrium
-from softway.solve.static_equilibrium import InitialSlip, StaticState, equilibrium
+from softway.solve.static.proximal_equilibrium import proximal_equilibrium
+from softway.solve.static.static_equilibrium import InitialSlip, StaticState, equilibrium
 
 log = logging.getLogger(__name__)
 SUDDEN = 1e-6

@@ -14,7 +14,7 @@ from softway.model.model import Model
 from softway.solve.constraints.normal_active_set import rounded
 from softway.solve.effort import Effort
 from softway.solve.linear.backends.superlu import SuperLU
-from softway.solve.static_equilibrium import (
+from softway.solve.static.static_equilibrium import (
     KEEP_AFTER,
     REMEDY,
     NoInitialSlip,
