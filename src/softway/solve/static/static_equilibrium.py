@@ -235,10 +235,8 @@ def loaded(
     model: Model, u: Array, dofs: DofMap, load: Array, glue: tuple[CohesiveTies, ...]
 ) -> tuple[sp.csc_array, Array]:
     """Stiffness (k, k) on the unknowns, and load (n, d) without what ties that break hold."""
-    if not glue:
-        return dofs.matrix(model.tangent(u)), load
-    stiffness = dofs.matrix(with_glue(model.tangent(u), glue, u))
-    return stiffness, load - sum(one.at(one.damage, u).force for one in glue)
+    held = sum((one.at(one.damage, u).force for one in glue), np.zeros_like(load))
+    return dofs.matrix(with_glue(model.tangent(u), glue, u) if glue else model.tangent(u)), load - held
 
 
 def static_state(u: Array, rows: ContactRows, force: Array, active: BoolArray) -> StaticState:
