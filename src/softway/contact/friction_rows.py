@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from softway.arrays import Array, IntArray
+from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.elements.section import Section
 from softway.bodies.setup.loads import facet_measures, facets_measure
@@ -92,6 +92,11 @@ class FrictionRows:
     def frictionless(self) -> bool:
         """True if no contact has friction."""
         return all(law.frictionless for law in self.laws)
+
+    @property
+    def pointed(self) -> BoolArray:
+        """Rows (m,) without a surface of their own."""
+        return np.asarray(self.area <= POINT * float(self.area.max(initial=0.0)))
 
     def at(self, u: Array) -> "FrictionRows":
         """Friction with the areas of the rows at the displacement u (n, d) [m]."""

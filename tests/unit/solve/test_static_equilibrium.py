@@ -16,7 +16,8 @@ from softway.meshes.generators.shapes import rectangle
 from softway.model.build import build
 from softway.model.model import Model
 from softway.model.scene import Scene
-from softway.solve.static_equilibrium import equilibrium
+from softway.solve.static.proximal_equilibrium import proximal_equilibrium
+from softway.solve.static.static_equilibrium import equilibrium
 
 
 def pulled(model: Model, acceleration: float | tuple[float, ...]) -> np.ndarray:
@@ -89,3 +90,21 @@ def test_a_load_without_equilibrium_is_told() -> None:
     model = build(Scene(bodies={"block": solid}))
     with pytest.raises(NumericsError, match="equilibrium"):
         equilibrium(model, model.displacement, model.dofs, pulled(model, (0.0, -2.0)))
+
+
+def test_proximal_steps_find_the_equilibrium_at_a_wall(bar: Callable[..., Model]) -> None:
+    model = bar(6, wall=1.04, timing=Impulse(), held="left", material=NeoHookean(E=1.0, nu=0.3))
+    load = pulled(model, 0.6)
+    rest = proximal_equilibrium(model, model.displacement, model.dofs, load)
+    known = equilibrium(model, model.displacement, model.dofs, load)
+    assert rest.displacement == pytest.approx(known.displacement, abs=1e-13)
+    assert rest.pressure == pytest.approx(known.pressure, rel=1e-11)
+
+
+@pytest.mark.parametrize("stretch", [0.5, 0.57])
+def test_proximal_steps_leave_an_unstable_shape(bar: Callable[..., Model], stretch: float) -> None:
+    """A bar that softens, crushed to where its tangent is not positive: back to its length, not through itself."""
+    model = bar(3, held="left", material=StVenantKirchhoff(E=1.0, nu=0.0))
+    crushed = (stretch - 1.0) * model.parts[0].mesh.points
+    rest = proximal_equilibrium(model, crushed, model.dofs, np.zeros_like(crushed))
+    assert rest.displacement == pytest.approx(0.0, abs=1e-13)

@@ -100,6 +100,23 @@ class AdaptedScene:
                     return self.on({**self.meshes, **meshes})
             hows |= {name: shallower(hows[name], self.meshes[name].base) for name in many}
 
+    def halved(self) -> "AdaptedScene":
+        """The scene with all edges halved in the solids that may have so fine and so many cells."""
+        meshes = {}
+        for name, how in adaptions(self.scene).items():
+            mesh = self.meshes[name]
+            base, leaves = mesh.base, mesh.leaves
+            finer = leaves.level + base.cell_dim
+            if finer.max() <= how.deepest(base.cell_dim) and len(finer) * 2**base.cell_dim <= how.most(base):
+                meshes[name] = refined(base, finer, leaves)
+        return self.on({**self.meshes, **meshes})
+
+    def coarsest(self) -> "AdaptedScene":
+        """The scene on the base meshes of the solids that adapt."""
+        bases = {name: self.meshes[name].base for name in adaptions(self.scene)}
+        coarse = {name: refined(base, np.zeros(base.n_cells, dtype=np.int64)) for name, base in bases.items()}
+        return self.on({**self.meshes, **coarse})
+
     def _hows(self, now: MarchState) -> dict[str, Adapt]:
         """Adaptions of the solids, with which their coming meshes may have few enough and large enough cells."""
         hows, ways = {}, closing(self.model, now)

@@ -53,7 +53,7 @@ def adaptive_march(
         on = adapted_scene(model).at(stored.leaves)
     else:
         on = adapted_start(model, settings) if state is None else adapted_scene(model)
-    return changing_slabs(on, _prepared(on, settings, state, cancel, trying), _change, cancel, trying)
+    return changing_slabs(on, _prepared(on, settings, state, cancel, trying), _change, cancel, trying, _rescue)
 
 
 def adapted_start(model: Model, settings: Settings) -> AdaptedScene:
@@ -101,12 +101,29 @@ def _change(on: AdaptedScene, now: MarchState) -> Change[AdaptedScene] | None:
     new = on.wanted(now, _energy(now), _ahead(on, now))
     if new is on:
         return None
+    return _changed(on, new, now)
+
+
+def _changed(on: AdaptedScene, new: AdaptedScene, now: MarchState) -> Change[AdaptedScene] | None:
+    """Change to other meshes; None if massless nodes find no equilibrium on them."""
     try:
         reached, transfers = carried_over(on, new, now)
     except NumericsError as error:
         log.info("meshes stay as they are at t = %.6g s: %s", now.state.time, error.what)
         return None
     return Change(on=new, now=reached, transfers=transfers)
+
+
+def _rescue(on: AdaptedScene, now: MarchState, tried: bool, failure: NumericsError) -> Change[AdaptedScene] | None:
+    """Change before another try of a slab that failed at every length: back to the old meshes if it has failed on new
+    ones, and else to finer ones, or to the base meshes; None if there are none.
+
+    A slab follows each change, and the patience with short slabs stays as it is, so that a march ends.
+    """
+    if tried:
+        return Change(on=on, now=now)
+    others = (new for new in (on.halved(), on.coarsest()) if new is not on)
+    return next((change for new in others if (change := _changed(on, new, now)) is not None), None)
 
 
 def _energy(now: MarchState) -> float:

@@ -20,7 +20,7 @@ from softway.model.model import Model
 from softway.model.scene import StaticStart
 from softway.solve.effort import Effort
 from softway.solve.equations.slab_values import SlabStart
-from softway.solve.static_equilibrium import (
+from softway.solve.static.static_equilibrium import (
     InitialFriction,
     InitialSlip,
     NoInitialSlip,

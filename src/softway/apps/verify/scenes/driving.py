@@ -13,7 +13,7 @@ from softway.bodies.internal_force.material_state import MaterialState
 from softway.laws.law import RateLaw
 from softway.laws.objective_rates import Rate
 from softway.model.model import Model
-from softway.solve.static_equilibrium import equilibrium
+from softway.solve.static.static_equilibrium import equilibrium
 
 RATES: dict[str, Rate] = {
     "jaumann": sw.laws.Jaumann(),

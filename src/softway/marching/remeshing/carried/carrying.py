@@ -43,7 +43,7 @@ from softway.marching.state.march_state import AdaptedMeshes, MarchState
 from softway.marching.state.model_state import Kind, ModelState, join_states, split_states
 from softway.model.scene import State
 from softway.solve.operators.operator_memory import OperatorMemory
-from softway.solve.static_equilibrium import StaticState
+from softway.solve.static.static_equilibrium import StaticState
 
 
 def carried_over(old: AdaptedScene, new: AdaptedScene, now: MarchState) -> tuple[MarchState, Mapping[str, Transferred]]:

@@ -1,6 +1,7 @@
 """Massless nodes on a new mesh: their equilibrium with contacts, friction and the memory of the material."""
 
-from collections.abc import Mapping
+import logging
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -9,16 +10,20 @@ import numpy as np
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.assembled.material_states import MaterialStates, any_path_dependent
 from softway.bodies.discretised import DiscreteSolid
+from softway.bodies.dof_map import DofMap
 from softway.bodies.internal_force.body_force import BodyForce
 from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce
 from softway.bodies.internal_force.material_state import OPTIONAL, MaterialState
 from softway.bodies.internal_force.regions import RegionForces
+from softway.errors import NumericsError
 from softway.laws.law import Damped, Viscous
 from softway.marching.remeshing.carried.kept_contacts import KeptContacts
 from softway.marching.remeshing.carried.surface_forces import SurfaceForces
 from softway.model.model import Model
-from softway.solve.static_equilibrium import StaticState, equilibrium
+from softway.solve.static.proximal_equilibrium import proximal_equilibrium
+from softway.solve.static.static_equilibrium import InitialSlip, StaticState, equilibrium
 
+log = logging.getLogger(__name__)
 SUDDEN = 1e-6
 """Time of the change of a mesh, relative to a slab, for laws whose stress relaxes: it does not."""
 ROUNDS = 40
@@ -74,14 +79,34 @@ class Unsettled:
         return rest, tuple(found)
 
     def _rest(self, model: Model) -> StaticState:
-        """Equilibrium of the massless nodes with the friction that passes over."""
+        """Equilibrium of the massless nodes with the friction that passes over.
+
+        Where there is none, rows stick where they are and slip beyond their limits; and where there is none either,
+        the friction begins anew in the slab that follows.
+        """
         u, dofs, load = self.displacement, model.dofs.only(~model.massive), model.loads.at(self.time)
         if self.kept is not None:
             u, rows = self.kept.placed(model, u, self.time)
             return StaticState.apart(u, len(rows.node))
-        carried = self.friction
+        carried, glue = self.friction, model.bonds
         if carried is None or not dofs.size:
-            return equilibrium(model, u, dofs, load, self.time, glue=model.bonds)
+            return _smooth(model, u, dofs, load, self.time)
+        none = np.zeros((len(model.contacts.contact), u.shape[1]))
+        sticks = InitialSlip(reference=u, velocity=none)
+        tries: tuple[tuple[str, Callable[[], StaticState]], ...] = (
+            ("friction of the places", lambda: self._rubbing(model, carried, dofs, load)),
+            ("sticking", lambda: equilibrium(model, u, dofs, load, self.time, friction=sticks, glue=glue)),
+        )
+        for name, found in tries:
+            try:
+                return found()
+            except NumericsError as failure:
+                log.info("massless nodes at t = %.6g s, %s: %s", self.time, name, failure.what)
+        return _smooth(model, u, dofs, load, self.time)
+
+    def _rubbing(self, model: Model, carried: SurfaceForces, dofs: DofMap, load: Array) -> StaticState:
+        """Equilibrium under the friction of the places."""
+        u = self.displacement
         rows, friction = model.rows(u, self.time), model.friction.at(u)
         traction, sliding = carried.first(rows, friction), np.zeros(len(rows.node), bool)
         for _ in range(ROUNDS):
@@ -93,6 +118,15 @@ class Unsettled:
             if model.space.greatest(traction - last) <= EXACT * model.space.greatest(traction):
                 break
         return replace(rest, traction=traction, sliding=sliding)
+
+
+def _smooth(model: Model, u: Array, dofs: DofMap, load: Array, time: float) -> StaticState:
+    """Equilibrium without friction, from the displacement u (n, d)."""
+    try:
+        return equilibrium(model, u, dofs, load, time, glue=model.bonds)
+    except NumericsError as failure:
+        log.info("massless nodes at t = %.6g s, no friction: %s", time, failure.what)
+    return proximal_equilibrium(model, u, dofs, load, time, model.bonds)
 
 
 def _changing(part: DiscreteSolid, state: MaterialState | None, span: float) -> DiscreteSolid:

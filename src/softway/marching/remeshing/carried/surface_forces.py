@@ -1,7 +1,8 @@
 """Friction on other meshes: tractions, sticking and slip pass by the place on the surface.
 
 A row takes the traction of its place times its own area, and in each contact a share in the pressed rows' pressure of
-what is missing in the sum.  So the force of the contact along its surface passes over, whatever the rows.  Contacts
+what is missing in the sum.  So the force of the contact along its surface passes over, whatever the rows.  Rows without
+a surface of their own, corners next to a mortar surface, have no traction: their force is in the sum alone.  Contacts
 between which places of the surface change, since tags move, pass over as one group.
 """
 
@@ -119,7 +120,7 @@ def surface_forces(model: Model, now: ModelState, groups: IntArray | None = None
     several = np.where(share > 0.0, share, 1.0)
     total = np.zeros((count, d))
     np.add.at(total, rows[0], now.traction)
-    traction = on_nodes(closed[:, None] * now.traction)
+    traction = on_nodes((closed * ~friction.pointed)[:, None] * now.traction)
     return SurfaceForces(
         groups=groups,
         traction=np.divide(traction, areas[..., None], out=np.zeros_like(traction), where=areas[..., None] > 0.0),

@@ -212,10 +212,9 @@ def _newton_iteration(
         pairs = pairs.with_kept_facets(u) if count == KEEP_AFTER and pairs.fixed_rows is None else pairs
         rows = pairs.at(u)
         try:
-            stiffness = dofs.matrix(model.tangent(u) if not glue else with_glue(model.tangent(u), glue, u))
+            stiffness, pull = loaded(model, u, dofs, load, glue)
             lifted = stiffness if lift is None else stiffness + lift
-            pull = load if not glue else load - sum(one.at(one.damage, u).force for one in glue)
-            step, force, active = _step(model, rows, u, dofs, pull, lifted, last, friction, effort)
+            step, force, active = newton_step(model, rows, u, dofs, pull, lifted, last, friction, effort)
         except NoConvergence as failure:
             raise NumericsError(f"no static equilibrium at the start: {failure}", 0.0, REMEDY) from None
         u, last = u + dofs.nodes(step), (force, active)
@@ -228,11 +227,19 @@ def _newton_iteration(
         size = max(model.space.greatest(u), float(np.abs(rows.offset[rows.near]).max(initial=0.0)))
         seen = seen.after(change)
         if once or change <= max(1e-13 * size, rounding) or (seen.since >= 2 and change <= WANDERING * size):
-            return _rest(u, rows, force, active)
+            return static_state(u, rows, force, active)
     raise NumericsError("no static equilibrium at the start", 0.0, REMEDY)
 
 
-def _rest(u: Array, rows: ContactRows, force: Array, active: BoolArray) -> StaticState:
+def loaded(
+    model: Model, u: Array, dofs: DofMap, load: Array, glue: tuple[CohesiveTies, ...]
+) -> tuple[sp.csc_array, Array]:
+    """Stiffness (k, k) on the unknowns, and load (n, d) without what ties that break hold."""
+    held = sum((one.at(one.damage, u).force for one in glue), np.zeros_like(load))
+    return dofs.matrix(with_glue(model.tangent(u), glue, u) if glue else model.tangent(u)), load - held
+
+
+def static_state(u: Array, rows: ContactRows, force: Array, active: BoolArray) -> StaticState:
     """Static state with the contact forces and active rows of the last step."""
     m = len(rows.node)
     if len(force) == m:
@@ -241,7 +248,7 @@ def _rest(u: Array, rows: ContactRows, force: Array, active: BoolArray) -> Stati
     return StaticState(displacement=u, pressure=force[:m], traction=traction, sliding=active[m:])
 
 
-def _step(
+def newton_step(
     model: Model,
     rows: ContactRows,
     u: Array,

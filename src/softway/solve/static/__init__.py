@@ -1,0 +1,1 @@
+"""Static equilibrium, from which a march may start or go on."""
