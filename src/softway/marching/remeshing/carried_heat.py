@@ -1,6 +1,6 @@
 """Temperature of solids on other meshes, and its account."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -172,8 +172,8 @@ class HeatOfState:
     rigid: Mapping[str, float]
 
 
-def heat_of(model: Model, now: ModelState) -> HeatOfState | None:
-    """Heat of a state; None without."""
+def heat_of(model: Model, now: ModelState, anew: Collection[str] = ()) -> HeatOfState | None:
+    """Heat of a state; None without.  It has no energy of the free strain of the solids whose reference is ``anew``."""
     found = temperature_of(model)
     if found is None:
         return None
@@ -181,6 +181,7 @@ def heat_of(model: Model, now: ModelState) -> HeatOfState | None:
     state, u, states = now.start.fields[k], now.start.displacement, now.start.states
     values = t.values_of(state)
     amounts = t.of_nodes(deformed(t.expansions, t.elastic, u, states).amounts())
+    amounts[0, : len(t.part)] *= ~np.array([part.name in anew for part in model.parts])[t.part]
     entropies = -t.moduli.slopes(values.temperature, values.share) * amounts
     return HeatOfState(
         contents=t.of_parts(values.content + (values.temperature * entropies).sum(axis=0)),

@@ -92,10 +92,12 @@ def _require_plain(solid: Solid, blocks: Iterable[str]) -> None:
 
 def _require_passing(thermal: Thermal) -> None:
     """Refuse heat that does not pass to a new mesh."""
-    for key in ("expansion", "melting_strain"):
-        if getattr(thermal, key):
-            problem = "a free strain, whose stress knows the deformation since the start"
-            raise InputError(key, problem, f"no {key}, or a mesh that stays")
+    if thermal.melting_strain:
+        problem = "a free strain of the liquid, whose latent heat knows the deformation since the start"
+        raise InputError("melting_strain", problem, "no melting_strain, or a mesh that stays")
+    if thermal.expansion and thermal.stiffness is not None:
+        problem = "expansion of a stiffness by temperature, whose heat knows the deformation since the start"
+        raise InputError("expansion", problem, "no expansion, no stiffness, or a mesh that stays")
     if isinstance(thermal.law, Mapping):
         problem = "several laws, whose regions have other capacities on a new mesh"
         raise InputError("law", problem, "one law, or a mesh that stays")
