@@ -13,7 +13,7 @@ from softway.heat.fronts.carried_contents import with_contents
 from softway.heat.heat_model import HeatModel, HeatPart
 from softway.heat.operators import HeatValues, entropy, heat_values
 from softway.laws.heat.heat_content import ContentCurve, content_curve
-from softway.marching.remeshing.carried_heat import temperature_of, temperatures_from
+from softway.marching.remeshing.carried_heat import heat_to_pass, temperature_of, temperatures_from
 from softway.marching.remeshing.forming.expansion import stress_of_laws
 from softway.marching.state.model_state import ModelState
 from softway.model.model import Model
@@ -45,13 +45,10 @@ def heat_on(models: tuple[Model, Model], now: ModelState, changed: Collection[st
     NumericsError
         If no temperatures of cut cells have the contents before.
     """
-    found = [temperature_of(model) for model in models]
-    if found[0] is None or found[1] is None:
+    passing = heat_to_pass(models, now)
+    if passing is None:
         return None
-    (k, before), (_, after) = found[0], found[1]
-    old, new, last = before.model, after.model, before.values_of(now.start.fields[k])
-    out: Array = np.empty(new.n_nodes)
-    out[new.n_nodes - len(new.lumps) :] = last.unknowns[old.n_nodes - len(old.lumps) :]
+    (old, new), last, out = passing
     parts, melting = {part.name: part for part in old.parts}, list[_Melting]()
     for part in new.parts:
         was = parts[part.name]
