@@ -90,7 +90,7 @@ def adiabatic(model: Model, unknowns: Array | None, before: Relieved, found: Mod
     after = heat_of(model, found)
     if unknowns is None or before.heat is None or after is None or not strained(model):
         return None
-    if not found.start.displacement.any():
+    if model.space.greatest(found.start.displacement) == 0.0:
         return None
     return with_content(model, unknowns, before.heat, after)
 
