@@ -64,9 +64,9 @@ def require_formable(model: Model, name: str, method: Method) -> None:
     ------
     InputError
         With the place in the scene: laws that know the undeformed shape, several materials, plane stress, other cells,
-        thermal expansion, several laws of heat, bulk viscosity, ties, tractions, supports that measure from the
-        undeformed shape, new cells of other shapes or around supports inside, Mmg that is not installed, rigid bodies,
-        solids that adapt, or central differences.
+        melting strain, expansion beside a stiffness by temperature, several laws of heat, bulk viscosity, ties,
+        tractions, supports that measure from the undeformed shape, new cells of other shapes or around supports inside,
+        Mmg that is not installed, rigid bodies, solids that adapt, or central differences.
     """
     part = next(p for p in model.parts if p.name == name)
     with within(f"bodies.{name}"):
