@@ -1,7 +1,7 @@
 """Heat across the contacts of solids in a slab: conductances of the rows, and the heat of friction at the nodes."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
@@ -60,10 +60,6 @@ class ContactExchange:
         first, last = contact.before > 0.0, contact.after > 0.0
         return any(bool((first[c.rows] != last[c.rows]).any()) for c in self.contacts)
 
-    def at(self, u: Array) -> "ContactExchange":
-        """Exchange with the areas at the displacement ``u`` (n, d) [m]."""
-        return replace(self, contacts=tuple(c.at(u) for c in self.contacts))
-
     def sides(self, contact: FieldContact) -> tuple[ContactSides, ...]:
         """Sides of the rows of each contact in a slab."""
         return tuple(contact_sides(contact.first, contact.last, c.rows, self.part_of) for c in self.contacts)
@@ -76,7 +72,8 @@ class ContactExchange:
         temperature: Array,
         rigid: Array,
     ) -> dict[int, HeatExchange]:
-        """Exchange of the contacts that pass heat in a slab, by their places among ``contacts``.
+        """Exchange of the contacts that pass heat in a slab, by their places among ``contacts``, with the areas in its
+        middle.
 
         Parameters
         ----------
@@ -92,10 +89,11 @@ class ContactExchange:
         found: dict[int, HeatExchange] = {}
         if not self.contacts:
             return found
-        gaps = contact.first.gap(ends[0]), contact.last.gap(ends[1])
+        gaps, middle = (contact.first.gap(ends[0]), contact.last.gap(ends[1])), 0.5 * (ends[0] + ends[1])
         for k, (rows, of) in enumerate(zip(self.contacts, sides, strict=True)):
             tool = rows.opposite(of, rigid)
-            conductance = rows.conductances(contact, gaps, of, temperature, tool)
+            area = rows.areas(middle, contact.last.normal)
+            conductance = rows.conductances(contact, gaps, of, temperature, tool, area)
             here = np.flatnonzero((conductance > 0.0) & ((of.opponent >= 0) | ~np.isnan(tool)))
             if here.size:
                 sign = np.where(self._begins(rows, of), 1.0, -1.0)[here]

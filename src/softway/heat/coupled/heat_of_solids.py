@@ -35,6 +35,9 @@ class HeatOfSolids:
         Temperature of each rigid body that has one [K].
     error
         Content less that at the start, ``brought`` and ``received`` [J].
+    zero
+        Part of the content that a state does not tell, since its meshes have another reference than those of the start
+        of the march [J].
     produced, passed, rounding
         Entropy produced in this slab, the sum of the magnitudes of the entropies that took part in it, and the rounding
         of the first [J/K].
@@ -56,6 +59,7 @@ class HeatOfSolids:
     liquid: Mapping[str, float] = field(default_factory=dict)
     rigid: Mapping[str, float] = field(default_factory=dict)
     error: float = 0.0
+    zero: float = 0.0
     produced: float = 0.0
     passed: float = 0.0
     rounding: float = 0.0

@@ -1,13 +1,13 @@
 """Rows of a contact across which heat passes, and their conductances in a slab (time step)."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.contact.friction_rows import DeclaredSurface
 from softway.heat.coupled.contact_sides import ContactSides
-from softway.heat.coupled.facing_areas import FacingAreas, facing_areas
+from softway.heat.coupled.facing_areas import facing_areas
 from softway.laws.heat.contact_heat import ContactHeat
 from softway.model.field import FieldContact
 
@@ -37,8 +37,6 @@ class RowsOfContact:
         Distance of surfaces that touch without a force [m].
     lump
         Number of the opponent among the rigid bodies with a temperature; None for all others.
-    facing
-        Areas at the start of a slab; None outside.
     """
 
     heat: ContactHeat
@@ -50,11 +48,10 @@ class RowsOfContact:
     tool: bool
     still: float
     lump: int | None = None
-    facing: FacingAreas | None = None
 
-    def at(self, u: Array) -> "RowsOfContact":
-        """Rows with their areas at the displacement ``u`` (n, d) [m]."""
-        return replace(self, facing=facing_areas(self.surfaces, u, self.node))
+    def areas(self, u: Array, normal: Array) -> Array:
+        """Areas (r,) of the rows at the displacement ``u`` (n, d) [m], whose opponents have the unit normals (m, d)."""
+        return self.share * facing_areas(self.surfaces, u, self.node).towards(normal[self.rows])
 
     def opposite(self, of: ContactSides, rigid: Array) -> Array:
         """Temperature (r,) of the tool, or of the rigid body, of which ``rigid`` are all; not a number for rows between
@@ -64,7 +61,13 @@ class RowsOfContact:
         return np.where(of.opponent < 0, given if self.lump is None else rigid[self.lump], np.nan)
 
     def conductances(
-        self, contact: FieldContact, gaps: tuple[Array, Array], of: ContactSides, temperature: Array, tool: Array
+        self,
+        contact: FieldContact,
+        gaps: tuple[Array, Array],
+        of: ContactSides,
+        temperature: Array,
+        tool: Array,
+        area: Array,
     ) -> Array:
         """Conductances (r,) [W/K] in a slab.
 
@@ -81,10 +84,10 @@ class RowsOfContact:
             (n,) temperatures for the radiation [K].
         tool
             (r,) temperature of the tool or rigid body; not a number for rows between solids [K].
+        area
+            (r,) areas of the rows, see :meth:`areas` [m^2].
         """
-        assert self.facing is not None
         rows, heat = self.rows, self.heat
-        area = self.share * self.facing.towards(contact.last.normal[rows])
         group = np.unique(self.node, return_inverse=True)[1]
         touches = [
             (force[rows] > 0.0) | (gap[rows] <= self.still)

@@ -66,7 +66,7 @@ class HeatOfSlab:
 class TimeOfSlab:
     """Slab of a march between two times [s], ``damped`` after a sudden change, in two ``halves``.
 
-    At its start: solids with their material states, contacts with their areas, temperatures ``before``, heats of
+    At its start: solids with their material states, contacts, temperatures ``before``, heats of
     prescribed temperatures that jumped [J], the strain with its ``amounts`` (2, k + r) [J], see
     :class:`SlabTemperature`, and the damage of ties that break.  The factor is that of its operator without contact and
     such ties.

@@ -133,7 +133,7 @@ class SolidTemperature:
             still = heat_at_rest(self.model, before, stage, halves, factor)
             parts = foreseen(parts, self.points, self.of_points(still), span)
         time = TimeOfSlab(
-            start=ends[0], end=ends[1], solids=parts, contacts=self.contacts.at(u0), damped=damped,
+            start=ends[0], end=ends[1], solids=parts, contacts=self.contacts, damped=damped,
             halves=halves, before=before, jumped=jumped, strained=strained, amounts=amounts, factor=factor,
             damage=beside.get("damage"),
         )  # fmt: skip

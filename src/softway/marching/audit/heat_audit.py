@@ -37,7 +37,7 @@ def heat_audit(last: HeatOfSolids | None, out: SlabResult) -> HeatOfSolids | Non
         if not isinstance(found, HeatOfSlab):
             continue
         return HeatOfSolids(
-            content=found.content,
+            content=found.content + last.zero,
             brought=last.brought + found.brought,
             received=last.received + found.received,
             cold_work=last.cold_work + found.stored,
@@ -47,7 +47,8 @@ def heat_audit(last: HeatOfSolids | None, out: SlabResult) -> HeatOfSolids | Non
             liquid=found.liquid,
             rigid=found.rigid,
             entropy=last.entropy + found.produced,
-            error=last.error + ((found.content - last.content) - (found.brought + found.received)),
+            error=last.error + ((found.content + last.zero - last.content) - (found.brought + found.received)),
+            zero=last.zero,
             produced=found.produced,
             passed=found.passed,
             rounding=found.rounding,

@@ -1,6 +1,6 @@
 """Temperature of solids on other meshes, and its account."""
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -16,7 +16,7 @@ from softway.heat.coupled.solid_temperature import SolidTemperature, temperature
 from softway.heat.coupled.strain.deformed import deformed
 from softway.heat.fronts.carried_contents import melting_contents, with_contents
 from softway.heat.heat_model import HeatModel, HeatPart
-from softway.heat.operators import entropy, heat_values, liquid_volumes, rigid_temperatures
+from softway.heat.operators import HeatValues, entropy, heat_values, liquid_volumes, rigid_temperatures
 from softway.laws.heat.heat_content import ContentCurve
 from softway.laws.heat.temperature_table import value_at
 from softway.marching.state.model_state import ModelState
@@ -43,6 +43,21 @@ def carries_heat(model: Model, name: str) -> bool:
     return all(isinstance(part.curve, ContentCurve) for part in found[1].model.parts if part.name == name)
 
 
+def heat_to_pass(
+    models: tuple[Model, Model], now: ModelState
+) -> tuple[tuple[HeatModel, HeatModel], HeatValues, Array] | None:
+    """Heat of the old and the new meshes, its values before, and unknowns (k + r,) on the new meshes, of which those of
+    rigid bodies are known; None without heat.
+    """
+    found = [temperature_of(model) for model in models]
+    if found[0] is None or found[1] is None:
+        return None
+    (k, before), new = found[0], found[1][1].model
+    old, last, out = before.model, before.values_of(now.start.fields[k]), np.empty(new.n_nodes)
+    out[new.n_nodes - len(new.lumps) :] = last.unknowns[old.n_nodes - len(old.lumps) :]
+    return (old, new), last, out
+
+
 def carried_unknowns(
     models: tuple[Model, Model],
     pairs: Mapping[str, tuple[AdaptedSolid, AdaptedSolid]],
@@ -67,13 +82,11 @@ def carried_unknowns(
     NumericsError
         If no temperatures of cut cells have the contents before.
     """
-    found = [temperature_of(model) for model in models]
-    if found[0] is None or found[1] is None:
+    passing = heat_to_pass(models, now)
+    if passing is None:
         return None
-    (k, temperature), heat = found[0], found[1][1].model
-    last, old = temperature.values_of(now.start.fields[k]), temperature.model
-    everywhere, out = old.everywhere(last.unknowns), np.empty(heat.n_nodes)
-    out[heat.n_nodes - len(heat.lumps) :] = last.unknowns[old.n_nodes - len(old.lumps) :]
+    (old, heat), last, out = passing
+    everywhere = old.everywhere(last.unknowns)
     wanted: dict[str, Array] = {}
     parts = {part.name: part for part in old.parts}
     for part in heat.parts:
@@ -172,8 +185,8 @@ class HeatOfState:
     rigid: Mapping[str, float]
 
 
-def heat_of(model: Model, now: ModelState) -> HeatOfState | None:
-    """Heat of a state; None without."""
+def heat_of(model: Model, now: ModelState, anew: Collection[str] = ()) -> HeatOfState | None:
+    """Heat of a state; None without.  It has no energy of the free strain of the solids whose reference is ``anew``."""
     found = temperature_of(model)
     if found is None:
         return None
@@ -181,6 +194,7 @@ def heat_of(model: Model, now: ModelState) -> HeatOfState | None:
     state, u, states = now.start.fields[k], now.start.displacement, now.start.states
     values = t.values_of(state)
     amounts = t.of_nodes(deformed(t.expansions, t.elastic, u, states).amounts())
+    amounts[0, : len(t.part)] *= ~np.array([part.name in anew for part in model.parts])[t.part]
     entropies = -t.moduli.slopes(values.temperature, values.share) * amounts
     return HeatOfState(
         contents=t.of_parts(values.content + (values.temperature * entropies).sum(axis=0)),

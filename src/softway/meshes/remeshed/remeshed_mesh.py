@@ -47,6 +47,11 @@ class RemeshedMesh:
     base: Array | None = None
 
     @property
+    def replaced(self) -> bool:
+        """Whether it is another mesh than that of the start."""
+        return not np.array_equal(self.mesh.points, self.first.points)
+
+    @property
     def ideal(self) -> Mesh:
         """Mesh with the same cells, in their best shapes."""
         return self.first if self.base is None else replace(self.mesh, points=self.base)

@@ -100,19 +100,22 @@ class Expansion:
         """
         if self.relieved is not None:
             return self._beside(free, factor, u, own_state(states, self.number, self.region))
-        H = self.sampling.derivatives(u[self.nodes])
-        m, size = (np.broadcast_to(self.directions, H.shape) + H).shape[-2:]
-        ratio: Array = np.ones(len(H)) if self.small else np.exp(self.change(u[self.nodes])[0])
-        pressure = self.modulus * (self.values @ free[self.nodes]) / ratio
-        mean = -self.sampling.cell_means(pressure, self.sampling.volume * ratio)
-        axes = np.zeros((len(H), 3, 3))
+        H, (pressure, ratio) = self.sampling.derivatives(u[self.nodes]), self.pressures(free, u)
+        m, size = H.shape[-2:]
+        mean, axes = -self.sampling.cell_means(pressure, self.sampling.volume * ratio), np.zeros((len(H), 3, 3))
         if m == size:
             axes[:] = self._held_axes()
         else:
             along = np.broadcast_to(self.directions, H.shape)[:, 0] + (0.0 if self.small else H[:, 0])
-            along = along / np.linalg.norm(along, axis=1)[:, None]
+            along /= np.linalg.norm(along, axis=1)[:, None]
             axes[:, :size, :size] = along[:, :, None] * along[:, None, :]
         return np.asarray(mean[:, None, None] * self.sampling.cell_means(axes, self.sampling.volume))
+
+    def pressures(self, free: Array, u: Array) -> tuple[Array, Array]:
+        """Pressures (p,) [Pa] of free strains (n,) where all axes are held, at ``u`` (n, d), and ratios of volumes."""
+        change = self.change(u[self.nodes])[0]
+        ratio = np.ones(len(change)) if self.small else np.exp(change)
+        return self.modulus * (self.values @ free[self.nodes]) / ratio, ratio
 
     def _beside(self, free: Array, factor: Array, u: Array, state: MaterialState) -> Array:
         """Mean stress (e, 3, 3) [Pa] of what the free strains are more than the eigenstrain of a law with a history."""

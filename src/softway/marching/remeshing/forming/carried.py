@@ -1,7 +1,7 @@
 """State of a march on new meshes of the present shapes."""
 
 from collections.abc import Collection, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 import scipy.sparse as sp
@@ -15,8 +15,9 @@ from softway.arrays import Array, IntArray
 from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce
 from softway.marching.remeshing.carried.settling import Unsettled
 from softway.marching.remeshing.carried.surface_forces import SurfaceForces, surface_forces
-from softway.marching.remeshing.carried_heat import account_of_heat, heat_of, with_digits
+from softway.marching.remeshing.carried_heat import heat_of, starting_at, with_digits
 from softway.marching.remeshing.forming.closing import closed, dissipated, heavy
+from softway.marching.remeshing.forming.expansion import adiabatic, relieved, whole_stress
 from softway.marching.remeshing.forming.formed_scene import FormedScene
 from softway.marching.remeshing.forming.heat import heat_on, warmed_state
 from softway.marching.results.exchange import Exchange
@@ -38,32 +39,45 @@ def carried_on(
     Memory passes by means over the overlap of the cells, velocities by projection; contact rows are found afresh, with
     forces that balance the stress.  The balances are closed in this equilibrium.
     """
-    state = _recast(old, new, split_states(old.model, now.state), reasons)
+    relief = relieved(old.model, now.state, reasons)
+    carried = _Carried(old=old, new=new, now=now, changed=reasons)
     warmth = heat_on((old.model, new.model), now.state, reasons)
-    state = warmed_state(new.model, state, warmth, reasons)
-    surface = _surface(old, new, now.state, reasons)
-    settles = bool(new.model.inert and not new.model.space.every(new.model.massive))
-    if settles:
-        joined = _settled(new.model, state, surface, now.step_history.span)
-    else:
-        joined = _in_contact(old.model, new.model, now.state, state, surface)
-    joined = with_digits(new.model, joined, warmth)
-    heats = heat_of(old.model, now.state), heat_of(new.model, joined)
+    joined = carried.joined(warmth)
+    shifted = adiabatic(new.model, warmth, relief, joined)
+    joined = joined if shifted is None else carried.joined(shifted)
     lost = dissipated(new.model, joined) - dissipated(old.model, now.state)
-    joined, taken = closed(old, new, now.state, joined, lost, list(reasons))
+    joined, taken = closed(old, new, now.state, joined, lost + relief.energy, list(reasons))
     numbers = {p.name: k for k, p in enumerate(new.model.parts)}
     exchanges = {n: _exchange(old, new, now, n, reason, float(taken[numbers[n]])) for n, reason in reasons.items()}
-    account = replace(
-        now.account,
-        remeshing=now.account.remeshing + float(taken.sum()),
-        dissipation=now.account.dissipation + float(lost.sum()),
-        heat=account_of_heat(now.account.heat, *heats, 0.0),
-    )
+    account = replace(now.account, remeshing=now.account.remeshing + float(taken.sum()))
+    account = relief.booked(account, heat_of(new.model, joined), float(lost.sum()))
     assert now.remeshed is not None
     failed = {name: quality for name, quality in now.remeshed.failed.items() if name not in reasons}
     remeshed = replace(now.remeshed, meshes=new.meshes, changed=now.slabs, failed=failed)
     memory = OperatorMemory(room=now.memory.room)
     return replace(now, state=joined, account=account, memory=memory, remeshed=remeshed), exchanges
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _Carried:
+    """State of a march that passes to the new meshes of the solids that have ``changed``."""
+
+    old: FormedScene
+    new: FormedScene
+    now: MarchState
+    changed: Collection[str]
+
+    def joined(self, warmth: Array | None) -> ModelState:
+        """State on the new meshes with the unknowns (k + r,) of its heat, before the balances are closed."""
+        old, new, now, changed = self.old, self.new, self.now.state, self.changed
+        state = whole_stress(old.model, now, split_states(old.model, now), changed)
+        state = warmed_state(new.model, _recast(old, new, state, changed), warmth, changed)
+        surface = _surface(old, new, now, changed)
+        if new.model.inert and not new.model.space.every(new.model.massive):
+            joined = _settled(new.model, state, surface, self.now.step_history.span)
+        else:
+            joined = _in_contact(old.model, new.model, now, state, surface)
+        return with_digits(new.model, joined, warmth)
 
 
 def _recast(old: FormedScene, new: FormedScene, state: State, changed: Collection[str]) -> State:
@@ -130,9 +144,10 @@ def _in_contact(
 
 def _settled(model: Model, state: State, surface: SurfaceForces | None, span: float) -> ModelState:
     """State with massless nodes in equilibrium with the contacts and the friction of the places, the others fixed."""
+    u = model.join(state.displacement)
     unsettled = Unsettled(
-        model=model,
-        displacement=model.join(state.displacement),
+        model=starting_at(model, state.fields, u),
+        displacement=u,
         states=tuple(state.memory.get(p.name) for p in model.parts),
         friction=surface,
         kept=None,

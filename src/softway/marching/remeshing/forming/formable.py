@@ -64,9 +64,9 @@ def require_formable(model: Model, name: str, method: Method) -> None:
     ------
     InputError
         With the place in the scene: laws that know the undeformed shape, several materials, plane stress, other cells,
-        thermal expansion, several laws of heat, bulk viscosity, ties, tractions, supports that measure from the
-        undeformed shape, new cells of other shapes or around supports inside, Mmg that is not installed, rigid bodies,
-        solids that adapt, or central differences.
+        melting strain, expansion beside a stiffness by temperature, several laws of heat, bulk viscosity, ties,
+        tractions, supports that measure from the undeformed shape, new cells of other shapes or around supports inside,
+        Mmg that is not installed, rigid bodies, solids that adapt, or central differences.
     """
     part = next(p for p in model.parts if p.name == name)
     with within(f"bodies.{name}"):
@@ -92,10 +92,12 @@ def _require_plain(solid: Solid, blocks: Iterable[str]) -> None:
 
 def _require_passing(thermal: Thermal) -> None:
     """Refuse heat that does not pass to a new mesh."""
-    for key in ("expansion", "melting_strain"):
-        if getattr(thermal, key):
-            problem = "a free strain, whose stress knows the deformation since the start"
-            raise InputError(key, problem, f"no {key}, or a mesh that stays")
+    if thermal.melting_strain:
+        problem = "a free strain of the liquid, whose latent heat knows the deformation since the start"
+        raise InputError("melting_strain", problem, "no melting_strain, or a mesh that stays")
+    if thermal.expansion and thermal.stiffness is not None:
+        problem = "expansion of a stiffness by temperature, whose heat knows the deformation since the start"
+        raise InputError("expansion", problem, "no expansion, no stiffness, or a mesh that stays")
     if isinstance(thermal.law, Mapping):
         problem = "several laws, whose regions have other capacities on a new mesh"
         raise InputError("law", problem, "one law, or a mesh that stays")

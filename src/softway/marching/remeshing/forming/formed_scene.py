@@ -18,6 +18,7 @@ from softway.bodies.solid import Solid
 from softway.errors import InputError, within
 from softway.heat.coupled.build import build
 from softway.laws.heat.heat_content import ZERO
+from softway.marching.remeshing.carried_heat import temperature_of
 from softway.marching.remeshing.forming.formable import replacements
 from softway.marching.state.march_state import MarchState
 from softway.meshes.mesh import Mesh
@@ -141,15 +142,30 @@ class FormedScene:
 
     def _with(self, meshes: Mapping[str, RemeshedMesh], changed: Mapping[str, RemeshedMesh]) -> "FormedScene":
         """The scene on meshes, of which some have changed."""
-        solids = {name: _still(self.scene, name, mesh.mesh, mesh.density) for name, mesh in changed.items()}
+        solids = {n: self._still(n, mesh.mesh, mesh.density) for n, mesh in changed.items() if mesh.replaced}
         model = _uncleared(build(replace(self.scene, bodies={**self.scene.bodies, **solids}), self.model), meshes)
         new = {**self.new, **{name: _quality(mesh.mesh) for name, mesh in changed.items()}}
         return FormedScene(model=replace(model, remeshed=meshes, declared=self.model.declared), new=new)
 
+    def _still(self, name: str, mesh: Mesh, density: float) -> Solid:
+        """A solid on another mesh, where it is: its motion and its temperature are in the state.
+
+        The stress of its law counts the free strain from one temperature: it takes what the mesh of the start has in
+        the mean.
+        """
+        still = replace(_solid(self.scene, name), mesh=mesh, place=Placement(), group=(), density=density)
+        if still.thermal is not None:
+            found, reference = temperature_of(self.model), still.thermal.reference
+            if found is not None and reference is None and still.thermal.expansion:
+                heat = found[1].model
+                reference = next(float(heat.initial[p.nodes].mean()) for p in heat.parts if p.name == name)
+            still = replace(still, thermal=replace(still.thermal, temperature=ZERO, reference=reference))
+        return replace(still, displacement=Uniform(), velocity=Uniform())
+
     def _followed(self, name: str, new: Replacement, places: Array) -> RemeshedMesh:
         """The mesh that replaces that of a solid with nodes at ``places`` (n, d)."""
         part, before, mesh = self.part(name), self.meshes[name], new.mesh
-        still = _still(self.scene, name, mesh, before.density)
+        still = self._still(name, mesh, before.density)
         volumes = [float(p.internal.sampling.volume.sum()) for p in (part, discretise(name, still, 0))]
         back = interpolation(part.mesh.blocks, places, mesh.points)
         matter = interpolation(mesh.blocks, mesh.points, before.matter @ places)
@@ -218,7 +234,7 @@ def _uncleared(model: Model, meshes: Mapping[str, RemeshedMesh]) -> Model:
     found = model.contacts.clearance
     if found is None:
         return model
-    new = {name for name, one in meshes.items() if not np.array_equal(one.mesh.points, one.first.points)}
+    new = {name for name, one in meshes.items() if one.replaced}
     old = [not any(model.parts[k].name in new for k in solids) for solids in model.contact_solids]
     kept = np.where(np.array(old)[model.contacts.contact], found, 0.0)
     return replace(model, contacts=replace(model.contacts, clearance=kept if kept.any() else None))
@@ -241,11 +257,3 @@ def _density(scene: Scene, name: str) -> float:
     density = _solid(scene, name).density
     assert isinstance(density, float | int)
     return float(density)
-
-
-def _still(scene: Scene, name: str, mesh: Mesh, density: float) -> Solid:
-    """A solid on another mesh, where it is: its motion and its temperature are in the state."""
-    still = replace(_solid(scene, name), mesh=mesh, place=Placement(), group=(), density=density)
-    if still.thermal is not None:
-        still = replace(still, thermal=replace(still.thermal, temperature=ZERO))
-    return replace(still, displacement=Uniform(), velocity=Uniform())

@@ -13,7 +13,8 @@ from softway.heat.fronts.carried_contents import with_contents
 from softway.heat.heat_model import HeatModel, HeatPart
 from softway.heat.operators import HeatValues, entropy, heat_values
 from softway.laws.heat.heat_content import ContentCurve, content_curve
-from softway.marching.remeshing.carried_heat import temperature_of, temperatures_from
+from softway.marching.remeshing.carried_heat import heat_to_pass, temperature_of, temperatures_from
+from softway.marching.remeshing.forming.expansion import stress_of_laws
 from softway.marching.state.model_state import ModelState
 from softway.model.model import Model
 from softway.model.scene import State
@@ -44,13 +45,10 @@ def heat_on(models: tuple[Model, Model], now: ModelState, changed: Collection[st
     NumericsError
         If no temperatures of cut cells have the contents before.
     """
-    found = [temperature_of(model) for model in models]
-    if found[0] is None or found[1] is None:
+    passing = heat_to_pass(models, now)
+    if passing is None:
         return None
-    (k, before), (_, after) = found[0], found[1]
-    old, new, last = before.model, after.model, before.values_of(now.start.fields[k])
-    out: Array = np.empty(new.n_nodes)
-    out[new.n_nodes - len(new.lumps) :] = last.unknowns[old.n_nodes - len(old.lumps) :]
+    (old, new), last, out = passing
     parts, melting = {part.name: part for part in old.parts}, list[_Melting]()
     for part in new.parts:
         was = parts[part.name]
@@ -153,19 +151,21 @@ def _unknowns(transfer: HeatTransfer, part: HeatPart, old: HeatModel, was: HeatP
 
 def warmed_state(model: Model, state: State, unknowns: Array | None, changed: Collection[str]) -> State:
     """State with the temperatures of the unknowns (k + r,), which the laws of the solids that have ``changed`` know at
-    their points.
+    their points; their stress there is the whole stress of the state less that of the free strain.
     """
     found, here = temperatures_from(model, unknowns), temperature_of(model)
     if found is None or here is None or unknowns is None:
         return state
-    temperature, memory = here[1], dict(state.memory)
-    following = after_jumps(temperature.model, heat_values(temperature.model, unknowns), state.time)
-    values = temperature.of_points(following)
+    temperature = here[1]
+    values = heat_values(temperature.model, unknowns)
+    state = stress_of_laws(model, values, state, changed)
+    memory, following = dict(state.memory), after_jumps(temperature.model, values, state.time)
+    points = temperature.of_points(following)
     for point in temperature.points:
         name = model.parts[point.solid].name
         if name not in changed:
             continue
-        own, (kelvin, factor, _) = memory[name], point.at(values)
+        own, (kelvin, factor, _) = memory[name], point.at(points)
         if own.temperature is not None:
             own = replace(own, temperature=kelvin)
         if own.stiffness is not None:

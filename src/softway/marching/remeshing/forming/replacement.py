@@ -20,7 +20,7 @@ from softway.marching.remeshing.forming.formable import makes_cells
 from softway.marching.remeshing.forming.formed_scene import FormedScene, Replacement, on_tools
 from softway.marching.state.march_state import MarchState
 from softway.meshes.mesh import Mesh
-from softway.meshes.remeshed.remesh import Remesh
+from softway.meshes.remeshed.remesh import Quality, Remesh
 from softway.meshes.walls.wall_edges import wall_edges
 from softway.model.model import Model
 
@@ -33,14 +33,16 @@ def replacement(on: FormedScene, how: Remesh, now: MarchState, name: str) -> Rep
 
     With ``auto`` a rezoned mesh if it is within the limits, otherwise new cells, and without those the rezoned mesh.
     """
-    makes, present = makes_cells(how, on.part(name).mesh, _solid(on, name)), on.quality(now, name)
-    same = None if makes and how.by == "new cells" else _rezoned(on, now, name)
-    found = None if same is None else cell_quality(same.mesh.blocks, same.mesh.points).worst
-    if found is None or not how.improves(found, present):
-        same = None
-    if makes and not (same is not None and found is not None and how.within(found)):
-        return _with_new_cells(on, how, now, name) or same
-    return same
+    makes = makes_cells(how, on.part(name).mesh, _solid(on, name))
+    same = None if makes and how.by == "new cells" else _rezoned(on, how, now, name)
+    if not makes or (same is not None and how.within(_quality(same.mesh))):
+        return same
+    return _with_new_cells(on, how, now, name) or same
+
+
+def _quality(mesh: Mesh) -> Quality:
+    """Quality of the worst cells of a mesh at rest."""
+    return cell_quality(mesh.blocks, mesh.points).worst
 
 
 def _walled(model: Model, name: str, mesh: Mesh) -> bool:
@@ -52,8 +54,8 @@ def _walled(model: Model, name: str, mesh: Mesh) -> bool:
     return model.inert and model.timing.massless and len(wall_edges(mesh, touchable)) > 0
 
 
-def _rezoned(on: FormedScene, now: MarchState, name: str) -> Replacement | None:
-    """The same cells with their nodes in other places."""
+def _rezoned(on: FormedScene, how: Remesh, now: MarchState, name: str) -> Replacement | None:
+    """The same cells with their nodes in other places; None if they are not better."""
     closed, kept = on.touching(now, name)
     part, mesh = on.part(name), on.meshes[name]
     tags = tuple(support.on for support in _solid(on, name).supports)
@@ -63,7 +65,7 @@ def _rezoned(on: FormedScene, now: MarchState, name: str) -> Replacement | None:
 
     found = rezoned(part, mesh.ideal, on.places(now, name), closed, kept, put, tags)
     moved = None if found is None else moved_mesh(part.mesh, found)
-    if moved is None or _walled(on.model, name, moved):
+    if moved is None or _walled(on.model, name, moved) or not how.improves(_quality(moved), on.quality(now, name)):
         return None
     return Replacement(mesh=moved, sizes=mesh.sizes)
 
@@ -82,7 +84,7 @@ def _with_new_cells(on: FormedScene, how: Remesh, now: MarchState, name: str) ->
         trial = on.trial(name, Replacement(mesh=new.mesh, sizes=new.sizes))
         new = new.divided(next(p for p in trial.parts if p.name == name).mesh)
         mesh = _on_boundary(on, trial, now, name, new)
-        if mesh is None or not how.improves(cell_quality(mesh.blocks, mesh.points).worst, present):
+        if mesh is None or not how.improves(_quality(mesh), present):
             return None
         if not _walled(trial, name, mesh):
             return Replacement(mesh=mesh, sizes=new.sizes)

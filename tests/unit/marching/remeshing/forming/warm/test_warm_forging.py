@@ -1,80 +1,21 @@
 """Warm billets whose meshes are replaced: first and second law, heat of plastic work, films, contacts, melting."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
 import pytest
-from forging import HEIGHT, KEPT, changes, continues, force, press
+from forging import HEIGHT, KEPT, changes, continues, force
+from warm_billets import HOW, PLASTIC, STEEL, WARM, accounted_changes, billet, keeps_its_heat, temperatures, upset
 
 import softway as sw
-from softway.arrays import Array
-from softway.bodies.setup.heat_loads import HeatLoad
 from softway.errors import InputError
-from softway.laws.law import Material
 from softway.marching.remeshing.carried_heat import temperature_of
 from softway.marching.remeshing.forming.formable import formable
-from softway.meshes.remeshed.remesh import Remeshing
 
-HOW = sw.meshes.Remesh(ratio=1.3, shortened=0.0)
-PLASTIC = sw.J2(E=1e3, nu=0.3, yield_stress=1.0, hardening=sw.laws.LinearHardening(modulus=0.5))
-STEEL = sw.heat.Conduction(conductivity=1e-2, capacity=1e-2)
 LATENT = sw.heat.Latent(heat=1.0, melting=1050.0)
 CURVED = replace(STEEL, capacity=sw.heat.TemperatureTable(temperatures=(900.0, 1200.0), values=(0.01, 0.02)))
-WARM = sw.bodies.Thermal(law=STEEL, temperature=lambda x: 1000.0 + 100.0 * x[:, 1])
-
-
-def billet(
-    remesh: Remeshing,
-    thermal: sw.bodies.Thermal = WARM,
-    cell: str = "quad4",
-    material: Material = PLASTIC,
-    contact: sw.heat.ContactHeat | None = None,
-    loads: tuple[HeatLoad, ...] = (),
-) -> sw.Scene:
-    """The press with a warm body."""
-    plain = press((6, 5), remesh, material)
-    mesh = sw.meshes.Rectangle(size=(1.0, HEIGHT), cells=(6, 5), cell=cell).build()
-    mesh = mesh.with_tag("flank", lambda x: (x[:, 0] > 0.999) & (x[:, 1] < 0.999 * HEIGHT))
-    dilatation = "mean" if cell == "quad4" else "corner"
-    body = replace(plain.bodies["body"], mesh=mesh, thermal=thermal, dilatation=dilatation)
-    contacts = tuple(replace(one, heat=contact) for one in plain.contacts)
-    return replace(plain, bodies={**plain.bodies, "body": body}, contacts=contacts, loads=loads)
-
-
-def upset(scene: sw.Scene, reduction: float, slabs: int) -> list[sw.Step]:
-    until = reduction * HEIGHT
-    return list(sw.march(scene, until=until, step=until / slabs))
-
-
-def temperatures(one: sw.Step) -> Array:
-    return one.after.fields["temperature"]["body"][:, 0]
-
-
-def accounted_changes(steps: list[sw.Step], least: float = -1e-14) -> Iterator[tuple[sw.Step, sw.Step]]:
-    """Steps before and after each change of the mesh; content is in the accounts to rounding, and no change lowers the
-    entropy.
-    """
-    for last, taken in pairwise(steps):
-        old, new = last.ledger.heat, taken.ledger.heat
-        assert old is not None
-        assert new is not None
-        assert abs(new.error) < 1e-12 * new.content
-        if taken.exchanges:
-            assert new.entropy - new.produced - old.entropy >= least
-            yield last, taken
-
-
-def keeps_its_heat(steps: list[sw.Step], least: float = -1e-14) -> None:
-    """Content and energy are in the accounts to rounding; changes of the mesh keep the content, lower no entropy, and
-    bring no new extremes.
-    """
-    for last, taken in accounted_changes(steps, least):
-        before, after = temperatures(last), taken.before.fields["temperature"]["body"]
-        assert before.min() * (1.0 - 1e-12) <= after.min()
-        assert after.max() <= before.max() * (1.0 + 1e-12)
-    assert abs(steps[-1].ledger.energy_error) < 1e-12 * steps[-1].ledger.work_external
+SOFTER = sw.heat.StiffnessTable(temperatures=(900.0, 1500.0), values=(1.0, 0.5))
 
 
 @pytest.mark.slow
@@ -159,7 +100,7 @@ def test_laws_that_soften_know_the_temperature_of_their_points() -> None:
     [
         pytest.param(replace(WARM, law=CURVED), id="capacity by temperature"),
         pytest.param(
-            replace(WARM, stiffness=sw.heat.StiffnessTable(temperatures=(900.0, 1500.0), values=(1.0, 0.5))),
+            replace(WARM, stiffness=SOFTER),
             id="stiffness by temperature",
         ),
         pytest.param(replace(WARM, law=replace(STEEL, latent=replace(LATENT, half_range=20.0))), id="mushy"),
@@ -193,7 +134,7 @@ def test_the_same_bits_from_a_stored_state() -> None:
 @pytest.mark.parametrize(
     ("thermal", "where"),
     [
-        (replace(WARM, expansion=1e-5), "bodies.body.thermal.expansion"),
+        (replace(WARM, expansion=1e-5, stiffness=SOFTER), "bodies.body.thermal.expansion"),
         (
             replace(WARM, law=replace(STEEL, latent=LATENT), melting_strain=0.01),
             "bodies.body.thermal.melting_strain",
@@ -215,3 +156,22 @@ def test_heat_that_does_not_pass(thermal: sw.bodies.Thermal, where: str) -> None
     body = replace(body, mesh=mesh, remesh="auto")
     stay = formable(sw.build(replace(scene, bodies={**scene.bodies, "body": body})), sw.FixedPoint())[1]
     assert set(stay) == {"body"}
+
+
+def test_a_tool_takes_the_heat_of_its_present_contact() -> None:
+    """Through the end face of a billet passes conductance times area times difference, of the middle of each slab."""
+    contact = sw.heat.ContactHeat(conductance=1e-3, tool_temperature=400.0)
+    passed = 0.0
+    for k, step in enumerate(upset(billet(KEPT, contact=contact), 0.4, 8)):
+        ends = []
+        for state in (step.before, step.after):
+            x = step.model.points + state.displacement["body"]
+            face = step.model.parts[0].mesh.nodes("top")
+            face = face[np.argsort(x[face, 0])]
+            r, over = x[face, 0], state.fields["temperature"]["body"][face, 0] - 400.0
+            a, b, one, two = r[:-1], r[1:], over[:-1], over[1:]
+            ends.append(2e-3 * np.pi * ((b - a) * (a * (one + two) / 2 + (b - a) * (one + 2.0 * two) / 6)).sum())
+        heat = step.ledger.heat
+        assert heat is not None
+        found, passed = (heat.through[0] - passed) / (step.after.time - step.before.time), heat.through[0]
+        assert found == pytest.approx(np.mean(ends), rel=2e-3 if k > 1 else 2e-2)
