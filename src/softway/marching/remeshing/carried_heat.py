@@ -194,7 +194,7 @@ def heat_of(model: Model, now: ModelState, anew: Collection[str] = ()) -> HeatOf
     state, u, states = now.start.fields[k], now.start.displacement, now.start.states
     values = t.values_of(state)
     amounts = t.of_nodes(deformed(t.expansions, t.elastic, u, states).amounts())
-    amounts[0, : len(t.part)] *= ~np.array([part.name in anew for part in model.parts])[t.part]
+    amounts[0, : len(t.nodes)] *= ~np.array([part.name in anew for part in model.parts])[model.part_of[t.nodes]]
     entropies = -t.moduli.slopes(values.temperature, values.share) * amounts
     return HeatOfState(
         contents=t.of_parts(values.content + (values.temperature * entropies).sum(axis=0)),

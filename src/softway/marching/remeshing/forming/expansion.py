@@ -61,7 +61,7 @@ def relieved(model: Model, now: ModelState, changed: Collection[str]) -> Relieve
     values = temperature.values_of(now.start.fields[k])
     strain = deformed(temperature.expansions, temperature.elastic, now.start.displacement, now.start.states)
     held, mine = temperature.of_nodes(strain.amounts())[0], [p.name in changed for p in model.parts]
-    held[: len(temperature.part)] *= np.array(mine)[temperature.part]
+    held[: len(temperature.nodes)] *= np.array(mine)[model.part_of[temperature.nodes]]
     moduli = temperature.moduli
     energy = moduli.potentials(values.temperature, values.share)[0] * held
     entropy = -moduli.slopes(values.temperature, values.share)[0] * held
