@@ -21,11 +21,7 @@ Radian = Annotated[float, "rad"]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Interval:
-    """Straight bar.
-
-    See Also
-    --------
-    softway.meshes.generators.shapes.interval
+    """Straight bar, see :func:`softway.meshes.generators.shapes.interval`.
 
     Examples
     --------
@@ -50,11 +46,7 @@ class Interval:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Rectangle:
-    """Rectangle along the axes.
-
-    See Also
-    --------
-    softway.meshes.generators.shapes.rectangle
+    """Rectangle along the axes, see :func:`softway.meshes.generators.shapes.rectangle`.
 
     Examples
     --------
@@ -74,11 +66,7 @@ class Rectangle:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Box:
-    """Box along the axes.
-
-    See Also
-    --------
-    softway.meshes.generators.shapes.box
+    """Box along the axes, see :func:`softway.meshes.generators.shapes.box`.
 
     Examples
     --------
@@ -98,11 +86,7 @@ class Box:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Disc:
-    """Disc.
-
-    See Also
-    --------
-    softway.meshes.generators.shapes.disc
+    """Disc, see :func:`softway.meshes.generators.shapes.disc`.
 
     Examples
     --------
@@ -122,11 +106,7 @@ class Disc:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cylinder:
-    """Cylinder along z.
-
-    See Also
-    --------
-    softway.meshes.generators.shapes.cylinder
+    """Cylinder along z, see :func:`softway.meshes.generators.shapes.cylinder`.
 
     Examples
     --------
@@ -147,11 +127,7 @@ class Cylinder:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ball:
-    """Ball.
-
-    See Also
-    --------
-    softway.meshes.generators.shapes.ball
+    """Ball, see :func:`softway.meshes.generators.shapes.ball`.
 
     Examples
     --------
@@ -171,7 +147,7 @@ class Ball:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Grid:
-    """Rectangle or box with cells between given coordinates.
+    """Rectangle or box with cells between given coordinates, see :func:`softway.meshes.generators.graded.grid`.
 
     Parameters
     ----------
@@ -179,10 +155,6 @@ class Grid:
         Increasing coordinates of the grid lines along the axis [m].
     z
         Likewise along z; empty in the plane.
-
-    See Also
-    --------
-    softway.meshes.generators.graded.grid
 
     Examples
     --------
@@ -202,11 +174,7 @@ class Grid:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Ring:
-    """Ring or sector of a ring.
-
-    See Also
-    --------
-    softway.meshes.generators.graded.ring
+    """Ring or sector of a ring, see :func:`softway.meshes.generators.graded.ring`.
 
     Examples
     --------
@@ -231,11 +199,7 @@ class Ring:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class GradedDisc:
-    """Disc or part of a disc, refined at its lowest point.
-
-    See Also
-    --------
-    softway.meshes.generators.graded.graded_disc
+    """Disc or part of a disc, refined at its lowest point, see :func:`softway.meshes.generators.graded.graded_disc`.
 
     Examples
     --------
@@ -259,7 +223,7 @@ class GradedDisc:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class MeshFile:
-    """Gmsh ``.msh`` or Abaqus/CalculiX ``.inp`` file.
+    """Gmsh ``.msh`` or Abaqus/CalculiX ``.inp`` file, see :func:`softway.meshes.files.mesh_files.read_mesh`.
 
     Parameters
     ----------
@@ -307,10 +271,6 @@ class Divided:
         Zones by name: the cells with their centres in a zone form its region; the first of several zones counts.
     rest
         Name of the region of all cells in no other one; empty for none.
-
-    See Also
-    --------
-    softway.meshes.files.mesh_files.read_mesh
 
     Examples
     --------

@@ -1,13 +1,14 @@
 """Reader of docstrings: the summary of a class and the descriptions of its fields."""
 
 import inspect
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from typing import Any
 
-REFERRED = "See Also"
-"""Section with the function whose parameters are the fields of the class."""
+REFERRED = re.compile(r",\s+see :func:`([\w.]+)\.(\w+)`")
+"""Reference in a summary to the function whose parameters are the fields of the class."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,9 +18,9 @@ class Described:
     Parameters
     ----------
     summary
-        Text before the first heading.
+        Text before the first heading, without that reference.
     fields
-        Description of each parameter by name, including those of the function under ``See Also``.
+        Description of each parameter by name, including those of the function that the summary refers to.
     sections
         Text of the other sections by heading.
     """
@@ -46,14 +47,14 @@ def described(thing: Any) -> Described:
     ends = [*heads[1:], len(lines)]
     texts = {lines[h].strip(): lines[h + 2 : end] for h, end in zip(heads, ends[: len(heads)], strict=True)}
     summary = "\n".join(lines[: heads[0] if heads else len(lines)]).strip()
-    given = {**_referred(texts.get(REFERRED, [])), **_fields(texts.pop("Parameters", []))}
-    return Described(summary, given, {head: "\n".join(text).strip() for head, text in texts.items()})
+    given = {**_referred(summary), **_fields(texts.pop("Parameters", []))}
+    return Described(REFERRED.sub("", summary), given, {head: "\n".join(text).strip() for head, text in texts.items()})
 
 
-def _referred(lines: list[str]) -> Mapping[str, str]:
-    """Parameters of the function that a section names."""
-    module, _, name = "".join(lines).strip().rpartition(".")
-    return described(getattr(import_module(module), name)).fields if module else {}
+def _referred(summary: str) -> Mapping[str, str]:
+    """Parameters of the function that a summary refers to."""
+    found = REFERRED.search(summary)
+    return described(getattr(import_module(found[1]), found[2])).fields if found else {}
 
 
 def _fields(lines: list[str]) -> dict[str, str]:
