@@ -138,7 +138,8 @@ def sample(field: Field | Array | Callable[[Array], Array], mesh: Mesh) -> Array
     Parameters
     ----------
     field
-        Field; from Python also an array (n, d) of nodal values, or a function of the points (n, d) that returns it.
+        Field; from Python also one vector (d,), an array (n, d) of nodal values, or a function of the points (n, d)
+        that returns either.
     mesh
         Mesh of the nodes.
     """
@@ -156,9 +157,13 @@ def sample(field: Field | Array | Callable[[Array], Array], mesh: Mesh) -> Array
             found = sum((sample(term, mesh) for term in field.terms), np.zeros_like(mesh.points))
         case _:
             found = np.array(field(mesh.points) if callable(field) else field, dtype=float)
+            if found.shape == (mesh.dim,):
+                found = np.tile(found, (mesh.n_nodes, 1))
     if found.shape != mesh.points.shape or not np.isfinite(found).all():
         raise InputError(
-            "", f"values of shape {found.shape} or not finite", f"finite numbers of shape {mesh.points.shape}"
+            "",
+            f"values of shape {found.shape} or not finite",
+            f"finite numbers of shape {mesh.points.shape}, or of shape ({mesh.dim},) for all nodes",
         )
     return found
 

@@ -39,6 +39,7 @@ def test_arrays_and_functions() -> None:
     found = sample(values, PLATE)
     assert found.tolist() == values.tolist() and found is not values
     assert sample(lambda x: 2.0 * x, PLATE).tolist() == (2.0 * PLATE.points).tolist()
+    assert sample(np.array([1.0, -2.0]), PLATE).tolist() == [[1.0, -2.0]] * 6
 
 
 @pytest.mark.parametrize(
