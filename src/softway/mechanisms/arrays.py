@@ -67,8 +67,12 @@ class MechanismState:
 def changing(
     it: Arrays, room: Space, stops: Mapping[str, Array | IntArray | BoolArray]
 ) -> dict[str, Array | IntArray | BoolArray]:
-    """Arrays that a march changes, by name; those of its ``stops`` among them."""
-    tables = [("motion", it.motion._asdict()), ("space", room._asdict()), ("stops", stops)]
+    """Arrays that a march changes, by name; those of its ``stops`` among them.
+
+    Addresses are not: they belong to this process, and no state may bring one.
+    """
+    space = {name: array for name, array in room._asdict().items() if name != "cone"}
+    tables = [("motion", it.motion._asdict()), ("space", space), ("stops", stops)]
     found = {f"{table}.{name}": array for table, arrays in tables for name, array in arrays.items()}
     return {**found, "supported": it.bodies.supported}
 

@@ -57,6 +57,12 @@ def test_the_rest_of_a_march_has_the_same_bits(name):
             assert (one.events, one.closed) == (other.events, other.closed)
 
 
+def test_states_hold_no_address():
+    mechanism = sw.check(sw.load(FOLDER / "hammer_on_stop.toml")).mechanism
+    state = next(iter(march(mechanism, until=0.6, step=1e-3))).march_state()
+    assert max(int(np.abs(whole).max(initial=0)) for whole in state.flags.values()) < 2**32
+
+
 @pytest.mark.parametrize("name", ["newtons_cradle", "rocking_block", "slider_crank"])
 def test_compiled_slabs_have_the_bits_of_single_ones(monkeypatch, name):
     checked = sw.check(sw.load(FOLDER / f"{name}.toml"))
