@@ -5,33 +5,16 @@ On the covered part of a facet with shape functions ``N_k >= 0``, the dual ones 
 part (docs/theory/contact/mortar.md).
 """
 
-from dataclasses import dataclass
-
 import numpy as np
 
 from softway.arrays import Array
+from softway.contact.mortar.dual_basis import DualBasis
 
 DUAL, MEAN = 0.999, 0.5
 """Covered fractions above which the basis is dual, and below which it is the shape functions; mixed in between: a dual
 function on a partly covered facet extrapolates, and would detect overlap where curved surfaces separate."""
 STIFF = 1e-6
 """Penalty of warping, relative to the mass: a partly covered four-node facet does not determine it."""
-
-
-@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
-class DualBasis:
-    """Test functions of f facets with b nodes.
-
-    Parameters
-    ----------
-    coefficients
-        (f, b, b) of the shape functions N_k in the test functions psi_j.
-    own
-        (f, b, b) ``int psi_j N_k`` [m^r]: diagonal where enough of the facet is covered.
-    """
-
-    coefficients: Array
-    own: Array
 
 
 def dual_basis(mass: Array, coverage: Array, warp: Array | None = None) -> DualBasis:
