@@ -56,7 +56,9 @@ def scene(dim: int, facets: int, touching: bool) -> sw.Scene:
 
 def measured(dim: int, facets: int, slabs: int, clock: Clock) -> tuple[float, float, float]:
     """Median processor times of a slab in contact and of a free one, and the mean of an evaluation of the rows [ms]."""
-    marches = {touching: sw.march(scene(dim, facets, touching), until=100.0, step=3e-4) for touching in (True, False)}
+    step = 3e-4
+    until = (WARM + slabs) * step
+    marches = {touching: sw.march(scene(dim, facets, touching), until=until, step=step) for touching in (True, False)}
     times: dict[bool, list[float]] = {touching: [] for touching in marches}
     for slab in range(WARM + slabs):
         if slab == WARM:

@@ -53,7 +53,9 @@ def scene(cells: int, resting: bool, method: sw.contact.DualMortar | sw.contact.
 def measured(cells: int, slabs: int, resting: bool) -> dict[str, float]:
     """Mean processor times of a slab [ms]: with the floor alone, and with open contact by either method."""
     methods = {"floor": None, "mortar": sw.contact.DualMortar(), "nodes": sw.contact.NodeToSurface()}
-    marches = {name: sw.march(scene(cells, resting, m), until=100.0, step=2e-3) for name, m in methods.items()}
+    step = 2e-3
+    until = (WARM + slabs) * step
+    marches = {name: sw.march(scene(cells, resting, m), until=until, step=step) for name, m in methods.items()}
     times: dict[str, list[float]] = {name: [] for name in marches}
     for _ in range(WARM + slabs):
         for name, steps in marches.items():

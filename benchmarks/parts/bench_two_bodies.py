@@ -77,13 +77,13 @@ def touches(step: Step) -> bool:
 def measured(cells: int, slabs: int, friction: float | None = None) -> Cost:
     """Costs of the slabs after the touch."""
     length = STEP * 9 / cells
-    steps = sw.march(scene(cells, friction), until=100.0, step=length)
+    steps = sw.march(scene(cells, friction), until=500 * length, step=length)
     step, first = timed(steps)
     while not touches(step):
         step, first = timed(steps)
     for _ in range(WARM):
         step = next(steps)
-    plain = sw.march(parted(cells, step), until=100.0, step=length)
+    plain = sw.march(parted(cells, step), until=(WARM + slabs) * length, step=length)
     for _ in range(WARM):
         next(plain)
     rows = []

@@ -124,10 +124,10 @@ def parted(cells: int, layers: int, step: Step) -> Model:
 def dense(cells: int, layers: int, slabs: int) -> dict[str, Any]:
     """Times of slabs of a pile of plates, with contact and without from the same state."""
     scene, length = plates(cells, layers), STEP * 9 / cells
-    steps = sw.march(scene, until=1.0, step=length, method=METHOD)
+    steps = sw.march(scene, until=(2 * WARM + slabs) * length, step=length, method=METHOD)
     for _ in range(2 * WARM):
         step = next(steps)
-    plain = sw.march(parted(cells, layers, step), until=1.0, step=length, method=METHOD)
+    plain = sw.march(parted(cells, layers, step), until=(WARM + slabs) * length, step=length, method=METHOD)
     for _ in range(WARM):
         free = next(plain)
     rows, active, drift = [], [], []
@@ -149,7 +149,7 @@ def dense(cells: int, layers: int, slabs: int) -> dict[str, Any]:
 
 def marched(cells: int, until: float, divide: int) -> dict[str, Any]:
     """Processor time of a whole march of the neo-Hookean cube, and its momentum along z after every slab."""
-    next(sw.march(held(2, "neo-Hookean"), until=1.0, step=STEP, method=METHOD))
+    next(sw.march(held(2, "neo-Hookean"), until=2 * STEP, step=STEP, method=METHOD))
     start = process_time()
     steps = list(sw.march(held(cells, "neo-Hookean"), until=until, step=STEP / divide, method=METHOD))
     used = process_time() - start
