@@ -32,10 +32,12 @@ from softway.arrays import IntArray
 
 WHOLE, WHOLES, FLAGS = types.int64, types.int64[::1], types.boolean[::1]
 NUMBERS, ROWS, BLOCKS = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
-LANES = types.uint32[:, :, ::1]
-"""Kinds of entries: a whole number, arrays of whole numbers and of truth values, arrays of one to three indices, and
-whole numbers of the cells in lanes.
+SINGLES, LANES = types.float32[:, ::1], types.uint32[:, :, ::1]
+"""Kinds of entries: a whole number, arrays of whole numbers and of truth values, arrays of one to three indices,
+numbers in single precision, and whole numbers of the cells in lanes.
 """
+ARGUMENTS = 16
+"""Number of arguments of a solution by PARDISO."""
 
 
 class Table(types.Type):
@@ -214,6 +216,21 @@ def ask(typing, address, places, number):
         return builder.call(builder.inttoptr(args[0], kind), [data, args[2]])
 
     return types.int64(types.int64, types.int64[::1], types.int64), generate
+
+
+@intrinsic
+def call_library(typing, function, arguments):
+    """Call a function of a library at an address with the addresses of its sixteen arguments."""
+
+    def generate(context, builder, signature, args):
+        place = ir.IntType(8).as_pointer()
+        kind = ir.FunctionType(ir.VoidType(), [place] * ARGUMENTS).as_pointer()
+        data = context.make_array(signature.args[1])(context, builder, args[1]).data
+        given = [builder.load(builder.gep(data, [ir.Constant(ir.IntType(64), k)])) for k in range(ARGUMENTS)]
+        builder.call(builder.inttoptr(args[0], kind), [builder.inttoptr(each, place) for each in given])
+        return context.get_dummy_value()
+
+    return types.none(types.int64, types.int64[::1]), generate
 
 
 def packed(arrays: NamedTuple) -> IntArray:

@@ -72,6 +72,7 @@ _SHARED = (
     "slab/friction.py",
     "slab/march.py",
     "slab/products.py",
+    "slab/solution.py",
     "slab/stored/closure.py",
     "slab/stored/force.py",
     "slab/stored/mixing.py",

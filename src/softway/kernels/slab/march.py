@@ -11,8 +11,8 @@ from softway.kernels.jit.by_address import ask
 from softway.kernels.jit.compilation import called, uncounted_kernel
 from softway.kernels.multibody.band import factor_band
 from softway.kernels.slab.audit import audited, closes
-from softway.kernels.slab.band import solve_spread
 from softway.kernels.slab.products import along, elastic, extent, greatest, momenta
+from softway.kernels.slab.solution import solve, solve_with
 from softway.kernels.slab.tables import (
     FIRST,
     ITERATIONS,
@@ -48,7 +48,7 @@ def factor(matrix, lower, pivot):
 
 
 @uncounted_kernel
-def answer(bodies_place, rows_place, r, down, up, pivot, x, out):
+def answer(bodies_place, rows_place, r, down, up, pivot, single, library, x, out):
     """Answer (N,) of the operator to a unit impulse on a row; ``x`` (f,) is work space."""
     bodies, rows = bodies_at(bodies_place), rows_at(rows_place)
     x[:] = 0.0
@@ -56,7 +56,7 @@ def answer(bodies_place, rows_place, r, down, up, pivot, x, out):
         place = bodies.place[rows.component[e]]
         if place >= 0:
             x[place] += rows.value[e]
-    solve_spread(down, up, pivot, x)
+    solve(down, up, pivot, single, library, x)
     for c in range(len(out)):
         out[c] = x[bodies.place[c]] if bodies.place[c] >= 0 else 0.0
 
@@ -160,7 +160,7 @@ def _iterated(bodies, rows, operator, course, work, h, s):
             x[bodies.place[c]] = -(work.push[c] + mean) if bodies.heavy[c] else -h * UNIT * (f1[c] - load)
     add_impulses(bodies, rows, operator.active, course.pressure[s + 1], x)
     add_impulses(bodies, rows, operator.slip, course.pressure[s + 1], x)
-    solve_spread(operator.down, operator.up, operator.pivot, x[: len(operator.pivot)])
+    solve_with(operator, x[: len(operator.pivot)])
     for c in range(len(field)):
         field[c] = x[bodies.place[c]] if bodies.place[c] >= 0 else 0.0
     return press(bodies, rows, operator, course, work, h, s)
@@ -191,13 +191,26 @@ def press(bodies, rows, operator, course, work, h, s):
         for b in range(k):
             total += operator.inverse[a, b] * work.row[b]
         impulse[operator.active[a]] += total
-        for c in range(len(field)):
-            field[c] += operator.answer[a, c] * total
+        work.row[k + a] = total
+    add_answers(operator.answer, work.row[k : 2 * k], field)
     for j in range(len(operator.slip)):
         impulse[operator.slip[j]] = operator.factor[j] * impulse[operator.partner[j]]
     for c in range(len(field)):
         work.q[c] += field[c]
     return greatest(field)
+
+
+@called
+def add_answers(answer, impulse, field):
+    """Add answers (k, N) times impulses (k,) to a field (N,), four at a time."""
+    whole = len(impulse) - len(impulse) % 4
+    for a in range(0, whole, 4):
+        one, two, three, four = impulse[a], impulse[a + 1], impulse[a + 2], impulse[a + 3]
+        for c in range(len(field)):
+            field[c] += answer[a, c] * one + answer[a + 1, c] * two + answer[a + 2, c] * three + answer[a + 3, c] * four
+    for a in range(whole, len(impulse)):
+        for c in range(len(field)):
+            field[c] += answer[a, c] * impulse[a]
 
 
 @called

@@ -2,8 +2,11 @@
 
 from typing import NamedTuple
 
+import numpy as np
+from numpy.typing import NDArray
+
 from softway.arrays import Array, BoolArray, IntArray
-from softway.kernels.jit.by_address import BLOCKS, FLAGS, NUMBERS, ROWS, WHOLE, WHOLES, table
+from softway.kernels.jit.by_address import BLOCKS, FLAGS, NUMBERS, ROWS, SINGLES, WHOLE, WHOLES, table
 
 
 class Bodies(NamedTuple):
@@ -62,7 +65,8 @@ class Rows(NamedTuple):
 
 class Operator(NamedTuple):
     """Factor ``down``, ``up`` (f, w + 4) and ``pivot`` (f,) of the operator in a band, see
-    :func:`~softway.kernels.slab.band.spread_factor`, and the ``active`` rows (k,): the answers
+    :func:`~softway.kernels.slab.band.spread_factor`, or that of a ``library`` with its arrays in ``single`` precision,
+    see :func:`~softway.kernels.slab.solution.solve`; and the ``active`` rows (k,): the answers
     ``answer`` (k, N) to a unit impulse on each, and the ``inverse`` (k, k) of their compliance.  Tangential rows
     ``slip`` (j,) have ``factor`` (j,) times the impulse of their normal row ``partner`` (j,), in its answer as well.
     """
@@ -70,6 +74,8 @@ class Operator(NamedTuple):
     down: Array
     up: Array
     pivot: Array
+    single: NDArray[np.float32]
+    library: IntArray
     active: IntArray
     answer: Array
     inverse: Array
@@ -152,6 +158,8 @@ operator_at = table(
     down=ROWS,
     up=ROWS,
     pivot=NUMBERS,
+    single=SINGLES,
+    library=WHOLES,
     active=WHOLES,
     answer=ROWS,
     inverse=ROWS,

@@ -5,6 +5,7 @@ from typing import NamedTuple
 
 import numpy as np
 import scipy.sparse as sp
+from numpy.typing import NDArray
 from scipy.sparse.csgraph import reverse_cuthill_mckee
 
 from softway.arrays import Array, IntArray
@@ -35,17 +36,19 @@ def band_order(matrix: sp.csr_array) -> BandOrder | None:
     return None if width * len(order) > LARGEST else BandOrder(place, width)
 
 
-class BandFactor(NamedTuple):
-    """Factor in a band: ``down`` and ``up`` (f, w + 4), see :func:`~softway.kernels.slab.band.spread_factor`, and
-    ``pivot`` (f,).
+class SlabFactor(NamedTuple):
+    """Factor of the operator of compiled slabs, see :func:`~softway.kernels.slab.solution.solve`: ``down`` and ``up``
+    (f, w + 4) in a band, and ``pivot`` (f,); or ``single`` (2, f) and ``library`` (18,) for the factor of a library.
     """
 
     down: Array
     up: Array
     pivot: Array
+    single: NDArray[np.float32] = np.zeros((2, 0), np.float32)
+    library: IntArray = np.zeros(0, np.int64)
 
 
-def banded_factor(matrix: sp.csr_array, order: BandOrder) -> BandFactor | None:
+def banded_factor(matrix: sp.csr_array, order: BandOrder) -> SlabFactor | None:
     """Factor in a band; None if the matrix is not positive definite."""
     entries = sp.coo_array(matrix)
     i, j = (order.place[c] for c in entries.coords)
@@ -56,4 +59,4 @@ def banded_factor(matrix: sp.csr_array, order: BandOrder) -> BandFactor | None:
         return None
     down, up = (np.zeros((shape[0], shape[1] + 3)) for _ in range(2))
     spread_factor(lower, down, up)
-    return BandFactor(down, up, pivot)
+    return SlabFactor(down, up, pivot)

@@ -1,6 +1,8 @@
 """Model with linear laws on fixed contact rows as arrays for compiled slabs (docs/theory/solver/compiled_slabs.md)."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import partial
 
 import numpy as np
 import scipy.sparse as sp
@@ -17,7 +19,7 @@ from softway.kernels.slab.apart import Surfaces
 from softway.kernels.slab.march import answer
 from softway.kernels.slab.tables import Bodies, Operator, Rows
 from softway.marching.rules.equilibrated import EndForceContact, Equilibrated
-from softway.marching.slab.band import BandFactor, BandOrder, band_order, banded_factor
+from softway.marching.slab.band import BandOrder, SlabFactor, band_order, banded_factor
 from softway.marching.slab.rows.apart import MetSurfaces, may_stay_apart, met_surfaces, surfaces_of
 from softway.marching.slab.rows.driven import supports_move_mass, tools_keep_direction
 from softway.marching.slab.rows.friction import HeldRows, every_row, held_rows, proportional
@@ -68,10 +70,10 @@ class CompiledModel:
     tolerance: float
     settings: Settings
     surfaces: Surfaces | None
-    factors: dict[float, BandFactor | None] = field(default_factory=dict)
+    factors: dict[float, SlabFactor | None] = field(default_factory=dict)
     last: dict[str, SlabTables | None] = field(default_factory=dict)
 
-    def factor(self, span: float) -> BandFactor | None:
+    def factor(self, span: float) -> SlabFactor | None:
         """Factor of the operator of slabs of the length ``span`` [s]; None if it is not positive definite."""
         if span not in self.factors:
             self.factors.clear()
@@ -100,7 +102,8 @@ class CompiledModel:
         if found is None:
             return None
         rows = rows_of(self.model, self.settings, met.rows)
-        operator = operator_of(self.bodies, rows, every_row(met.rows), found, held)
+        answers_to = partial(answers_of, self.bodies, rows, found)
+        operator = operator_of(answers_to, every_row(met.rows), found, held)
         if operator is None:
             return None
         closed = np.isin(np.arange(len(met.rows.node)), held.active)
@@ -114,10 +117,15 @@ class CompiledModel:
         )
 
 
-def operator_of(bodies: Bodies, rows: Rows, every: sp.csr_array, found: BandFactor, held: HeldRows) -> Operator | None:
-    """Operator with the rows that are held, of ``every`` row (M, N); None if their forces are not unique."""
-    answers = _answers(bodies, rows, held.active, found)
-    slips = _answers(bodies, rows, held.slip, found)
+def operator_of(
+    answers_to: Callable[[IntArray], Array], every: sp.csr_array, found: SlabFactor, held: HeldRows
+) -> Operator | None:
+    """Operator with the rows that are held, of ``every`` row (M, N); None if their forces are not unique.
+
+    ``answers_to`` gives the answers (k, N) to unit impulses on some rows (k,).
+    """
+    answers = answers_to(held.active)
+    slips = answers_to(held.slip)
     for each, partner, ratio in zip(slips, held.partner, held.factor, strict=True):
         answers[held.active == partner] += ratio * each
     compliance = answers @ every[held.active].T
@@ -137,7 +145,7 @@ def operator_of(bodies: Bodies, rows: Rows, every: sp.csr_array, found: BandFact
     )
 
 
-def _answers(bodies: Bodies, rows: Rows, which: IntArray, found: BandFactor) -> Array:
+def answers_of(bodies: Bodies, rows: Rows, found: SlabFactor, which: IntArray) -> Array:
     """Answers (k, N) to unit impulses on some rows (k,)."""
     out, work = np.zeros((len(which), len(bodies.heavy))), np.empty(len(found.pivot))
     tables = packed(bodies), packed(rows)

@@ -140,7 +140,7 @@ def new_work(bodies: Bodies, rows: Rows) -> Work:
         before=fields[2],
         after=fields[3],
         push=fields[4],
-        row=np.zeros(len(rows.offset)),
+        row=np.zeros(2 * len(rows.offset)),
         group=np.zeros((groups, 3)),
         works=np.zeros((len(bodies.floor), WORKS)),
     )

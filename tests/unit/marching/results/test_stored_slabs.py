@@ -11,6 +11,8 @@ from softway.heat.coupled.build import build
 from softway.marching.results.step import Step
 from softway.marching.slab.slab_batch import BatchStates
 from softway.model.model import Model
+from softway.solve.linear.backends.pardiso import Pardiso
+from softway.solve.operators.factored import suited
 
 SLABS = import_module("softway.marching.slabs")
 SOFT = sw.NeoHookean(E=1e3, nu=0.3)
@@ -59,6 +61,18 @@ def cube() -> sw.Scene:
     return sw.Scene(bodies={"cube": body, "floor": floor(0.0, 0.0, -0.02)}, contacts=contacts)
 
 
+def dropped() -> sw.Scene:
+    """A cube whose band would be too large, which falls flat and is compressed a little more on one side."""
+    body = sw.Solid(
+        mesh=sw.meshes.Box(size=(1.0, 1.0, 1.0), cells=(7, 7, 7)),
+        material=SOFT,
+        density=1.0,
+        velocity=sw.bodies.Affine(value=(0.0, 0.0, -1.0), gradient=((0, 0, 0), (0, 0, 0), (0.1, 0, -0.5))),
+    )
+    contacts = met(("cube.bottom", "floor"))
+    return sw.Scene(bodies={"cube": body, "floor": floor(0.0, 0.0, -0.02)}, contacts=contacts)
+
+
 def several() -> sw.Scene:
     """A soft disc and one of a linear law, which fall on one floor."""
 
@@ -81,6 +95,7 @@ CASES = {
     "bending": (bending(), 0.002, 260, 0.8),
     "cube": (cube(), 0.002, 160, 0.6),
     "several": (several(), 0.002, 120, 0.8),
+    "dropped": (dropped(), 0.001, 160, 0.8 if isinstance(suited(2000, "single"), Pardiso) else 0.0),
 }
 """Scenes with the length of their slabs, the number of them, and the least part of them that is compiled."""
 
@@ -102,7 +117,7 @@ def test_both_ways_agree(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     fast = marched(model, step, count)
     monkeypatch.setattr(SLABS, "stored_model", lambda *of: None)
     slow = marched(model, step, count)
-    assert len(compiled(fast)) > part * count and not compiled(slow)
+    assert len(compiled(fast)) >= part * count and not compiled(slow)
     assert {e.kind for s in slow for e in s.events} == {"touch", "release"}
     differ = sum(one.report.iterations != other.report.iterations for one, other in zip(fast, slow, strict=True))
     assert differ <= 2  # where the last change is rounding
@@ -160,7 +175,7 @@ def test_the_energy_closes_to_rounding_with_scalars() -> None:
     assert max(abs(s.ledger.energy_error) for s in steps) < 1e-12 * count * energy
 
 
-@pytest.mark.parametrize(("name", "renewed"), [("cube", True), ("spinning", False)])
+@pytest.mark.parametrize(("name", "renewed"), [("cube", True), ("spinning", False), ("dropped", False)])
 def test_a_march_from_any_slab_has_the_same_bits(name: str, renewed: bool) -> None:
     """Also in the middle of a compiled call, with an operator that is worn and one that turns."""
     scene, step, count, _ = CASES[name]

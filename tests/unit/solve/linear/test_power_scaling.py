@@ -3,11 +3,15 @@
 import numpy as np
 import pytest
 import scipy.sparse as sp
+from numba import njit
 
+from softway.kernels.slab.solution import solve
 from softway.solve.linear.backends import Pardiso, SuperLU
+from softway.solve.linear.backends.pardiso import solve_call
 from softway.solve.linear.interface import LinearSolver
 from softway.solve.linear.power_scaling import GREAT, PowerScaled, enlarged, exponent
 
+EMPTY = np.zeros((0, 0))
 SOLVERS = [SuperLU("single"), Pardiso("single", 1)]
 
 
@@ -73,3 +77,33 @@ def test_schur_complements_have_the_scale_of_the_matrix() -> None:
     found = Pardiso("single", 1).factor(matrix).schur_complement(last)
     inverse = np.linalg.inv(matrix.toarray())[np.ix_(last, last)]
     np.testing.assert_allclose(found @ inverse, np.eye(2), atol=1e-5)
+
+
+@njit
+def by_address(single: np.ndarray, library: np.ndarray, x: np.ndarray) -> None:
+    """Solve in place in compiled code."""
+    solve(EMPTY, EMPTY, x, single, library, x)
+
+
+@pytest.mark.parametrize(("scale", "load"), [(1e-30, 1.0), (1.0, 1e-300), (1e30, 1e-35), (1e-6, 1e20)])
+def test_compiled_code_finds_the_same_bits(scale: float, load: float) -> None:
+    pytest.importorskip("pypardiso", reason="pypardiso is not installed")
+    factor, b = Pardiso("single", 1).factor(chain(30, scale)), load * np.arange(1.0, 31.0)
+    call = solve_call(factor)
+    assert call is not None
+    for _ in range(2):
+        x = b.copy()
+        with call.limited():
+            by_address(call.single, call.library, x)
+        assert not call.failed
+        np.testing.assert_array_equal(x, factor.solve(b))
+    none = np.zeros(30)
+    by_address(call.single, call.library, none)
+    assert not none.any()
+
+
+def test_other_factors_are_not_for_compiled_code() -> None:
+    assert solve_call(SuperLU("single").factor(chain(5, 1.0))) is None
+    pytest.importorskip("pypardiso", reason="pypardiso is not installed")
+    assert solve_call(Pardiso("double", 1).factor(chain(5, 1.0))) is None
+    assert solve_call(Pardiso("single", 1).factor(chain(5, -1.0))) is None

@@ -7,7 +7,7 @@ A was factored.
 import numpy as np
 
 from softway.kernels.jit.compilation import called
-from softway.kernels.slab.band import solve_spread
+from softway.kernels.slab.solution import solve_with
 from softway.kernels.slab.stored.tables import MIXED, NOW, STRAIGHT, TURNED, UNKNOWN
 
 CLEAR = 1e-6
@@ -49,10 +49,10 @@ def solve_turned(bodies, operator, turning, x):
     """Solve in place with the operator of the slab, x (f,)."""
     if turning.state[NOW] == TURNED:
         _rotate(bodies, turning, x, True)
-        solve_spread(operator.down, operator.up, operator.pivot, x)
+        solve_with(operator, x)
         _rotate(bodies, turning, x, False)
     else:
-        solve_spread(operator.down, operator.up, operator.pivot, x)
+        solve_with(operator, x)
 
 
 @called

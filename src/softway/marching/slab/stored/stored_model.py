@@ -1,7 +1,8 @@
 """Model with stored energies on fixed contact rows as arrays for compiled slabs."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from typing import NamedTuple, cast
 
 import numpy as np
@@ -23,10 +24,10 @@ from softway.kernels.slab.stored.tables import Cells, Stored, Turning
 from softway.kernels.slab.tables import Bodies, Operator, Rows
 from softway.marching.audit.folded_cells import WatchedCells, watched_cells
 from softway.marching.rules.equilibrated import EndForceContact, Equilibrated
-from softway.marching.slab.band import BandFactor, BandOrder, band_order, banded_factor
-from softway.marching.slab.compiled_model import bodies_of, operator_of, rows_of
+from softway.marching.slab.compiled_model import answers_of, bodies_of, operator_of, rows_of
 from softway.marching.slab.rows.friction import every_row, without_friction
 from softway.marching.slab.slab_step import Stepper
+from softway.marching.slab.stored.library_factor import LibraryFactor, way_of
 from softway.marching.state.march_state import Settings
 from softway.model.model import Model
 from softway.model.time_weight import EndPeaks, moments
@@ -57,22 +58,24 @@ class Tables:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class FrozenFactor:
-    """Factor of an operator and the deformation ``gradient`` (n, d, d) at the nodes where it was made; ``operators``
-    keeps that of the last closed rows.
+    """Factor of an operator and the deformation ``gradient`` (n, d, d) at the nodes where it was made.
+
+    ``operators`` keeps that of the last closed rows, ``answers`` the answers (N,) to impulses on rows.
     """
 
-    factor: BandFactor
+    found: LibraryFactor
     gradient: Array
     operators: dict[bytes, Operator | None] = field(default_factory=dict)
+    answers: dict[int, Array] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class StoredModel:
     """Arrays of a model with stored energies for slabs of the length ``span`` [s].
 
-    ``solids`` are the tables of the solids, ``order`` that of the band, ``watched`` the cells whose shapes are looked
-    at, ``turning`` and ``slopes`` the sampling of rotations.  ``factors`` keeps that of the last operator; it depends
-    on the place where that was made only.
+    ``solids`` are the tables of the solids, ``factored`` makes factors of operators, ``watched`` are the cells
+    whose shapes are looked at, ``turning`` and ``slopes`` the sampling of rotations.  ``factors`` keeps that of the
+    last operator; it depends on the place where that was made only.
     """
 
     model: Model
@@ -81,7 +84,7 @@ class StoredModel:
     contact_rows: ContactRows
     rows: Rows
     solids: Tables
-    order: BandOrder
+    factored: Callable[[sp.csc_array], LibraryFactor | None]
     watched: WatchedCells
     turning: NodalRotation
     slopes: tuple[IntArray, IntArray, Array]
@@ -96,19 +99,24 @@ class StoredModel:
             self.factors[key] = self._made(origin)
         return self.factors[key]
 
-    def operator(self, origin: OperatorOrigin, closed: BoolArray, mixed: bool) -> tuple[Operator, Turning] | None:
-        """Operator with the rows ``closed`` (m,), and its rotation; None if there is none.
+    def operator(
+        self, origin: OperatorOrigin, closed: BoolArray, mixed: bool
+    ) -> tuple[Operator, Turning, LibraryFactor] | None:
+        """Operator with the rows ``closed`` (m,), its rotation and its factor; None if there is none.
 
-        Rows are solved for in axes that turn where they are ``mixed``.
+        Rows are solved for in axes that turn where they are ``mixed``, in every slab anew: with a factor of a library
+        this takes longer than the solver for all models.
         """
         factor = self.factor(origin)
-        operator = None if factor is None else self._closed(factor, closed)
-        if factor is None or operator is None:
+        if factor is None or (mixed and closed.any() and factor.found.call is not None):
+            return None
+        operator = self._closed(factor, closed)
+        if operator is None:
             return None
         if mixed:
             answer, inverse = np.zeros_like(operator.answer), np.zeros_like(operator.inverse)
             operator = operator._replace(answer=answer, inverse=inverse)
-        return operator, self._turning(factor, len(operator.active), mixed)
+        return operator, self._turning(factor, len(operator.active), mixed), factor.found
 
     def _turning(self, factor: FrozenFactor, closed: int, mixed: bool) -> Turning:
         """Rotation of the operator, with room for closed rows."""
@@ -129,21 +137,25 @@ class StoredModel:
         )
 
     def _made(self, origin: OperatorOrigin) -> FrozenFactor | None:
-        found = banded_factor(sp.csr_array(origin.stiffness(self.model).operator(origin.at)), self.order)
-        if found is None:
-            return None
-        return FrozenFactor(found, self.turning.gradient(origin.at))
+        found = self.factored(origin.stiffness(self.model).operator(origin.at))
+        return None if found is None else FrozenFactor(found, self.turning.gradient(origin.at))
 
     def _closed(self, frozen: FrozenFactor, closed: BoolArray) -> Operator | None:
         """Operator of a factor with closed rows (m,); None if these depend on each other."""
         key = closed.tobytes()
         if key not in frozen.operators:
             frozen.operators.clear()
-            held = without_friction(closed)
-            frozen.operators[key] = operator_of(
-                self.bodies, self.rows, every_row(self.contact_rows), frozen.factor, held
-            )
+            held, every = without_friction(closed), every_row(self.contact_rows)
+            frozen.operators[key] = operator_of(partial(self._answers, frozen), every, frozen.found.factor, held)
         return frozen.operators[key]
+
+    def _answers(self, frozen: FrozenFactor, which: IntArray) -> Array:
+        """Answers (k, N) to unit impulses on some rows (k,)."""
+        new = np.array([row for row in which.tolist() if row not in frozen.answers], np.int64)
+        with frozen.found.limited():
+            found = answers_of(self.bodies, self.rows, frozen.found.factor, new)
+        frozen.answers.update(zip(new.tolist(), found, strict=True))
+        return np.array([frozen.answers[row] for row in which.tolist()]).reshape(len(which), len(self.bodies.heavy))
 
 
 def stored_model(stepper: Stepper, settings: Settings, span: float) -> StoredModel | None:
@@ -153,9 +165,9 @@ def stored_model(stepper: Stepper, settings: Settings, span: float) -> StoredMod
         return None
     assert isinstance(method, FixedPoint)
     factor = 0.5 * span**2 * moments(settings.weight)[1]
-    order = band_order(sp.csr_array(model.inertia_and_stiffness(np.zeros(model.shape), factor)))
-    bodies = None if order is None else bodies_of(model, order.place)
-    if order is None or bodies is None:
+    way = way_of(sp.csr_array(model.inertia_and_stiffness(np.zeros(model.shape), factor)))
+    bodies = None if way is None else bodies_of(model, way.place)
+    if way is None or bodies is None:
         return None
     found, turning = (
         model.contacts.rest(np.zeros(model.shape), 0.0).start(np.zeros(model.shape)),
@@ -171,7 +183,7 @@ def stored_model(stepper: Stepper, settings: Settings, span: float) -> StoredMod
         contact_rows=found,
         rows=rows._replace(allowed=np.where(crushable, settings.control.approach * edge, rows.allowed)),
         solids=_stored(model),
-        order=order,
+        factored=way.factored,
         watched=watched_cells(model),
         turning=turning,
         slopes=_slopes(turning),

@@ -6,7 +6,7 @@ from softway.arrays import Array
 from softway.kernels.slab.stored.march import stored_slabs
 from softway.kernels.slab.stored.tables import BALANCE, DEAR, Search
 from softway.kernels.slab.tables import ITERATIONS, Course
-from softway.marching.slab.compiled_slabs import AHEAD, NUMBERS, TOGETHER, new_course, new_work
+from softway.marching.slab.compiled_slabs import AHEAD, TOGETHER, new_course, new_work
 from softway.marching.slab.slab_batch import SlabBatch, contractions
 from softway.marching.slab.stored.stored_model import StoredModel, Tables
 from softway.marching.state.march_state import MarchState
@@ -15,6 +15,8 @@ from softway.model.scene import State
 from softway.solve.equations.energy_balance import SLIGHT
 from softway.solve.operators.operator_memory import USUAL, WORN, IterationCount, OperatorMemory
 
+NUMBERS = 1_000_000
+"""Greatest number of numbers of the states of a call."""
 MOST = 60
 """Greatest number of iterations of a compiled slab."""
 CLEAR = 1.0 + 1e-9
@@ -71,7 +73,7 @@ def _computed(
     found = stored.operator(memory.origin, now.pressure > 0.0, mixed)
     if found is None:
         return None
-    operator, turning = found
+    operator, turning, factor = found
     times = np.cumsum([now.time, *(stored.span for _ in range(wanted))])
     course = new_course(stored.model, now, stored.contact_rows, times)
     search = _search(stored, march_state, memory)
@@ -79,7 +81,9 @@ def _computed(
     told = np.array([start, account.work_external, account.energy_error, account.dissipation])
     work = new_work(stored.bodies, stored.rows)
     tables = Tables.of((stored.bodies, stored.rows, operator, course, work, search, turning))
-    return course, int(stored_slabs(tables.places, told, wanted)), bool(search.taken[DEAR])
+    with factor.limited():
+        computed = int(stored_slabs(tables.places, told, wanted))
+    return None if factor.failed else (course, computed, bool(search.taken[DEAR]))
 
 
 def _known(memory: OperatorMemory, span: float) -> bool:

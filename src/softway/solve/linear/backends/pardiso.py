@@ -2,6 +2,8 @@
 
 import ctypes
 import weakref
+from collections.abc import Callable
+from contextlib import AbstractContextManager
 from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, files
 from typing import Any
@@ -16,6 +18,7 @@ from softway.solve.linear.backends.pardiso_call import (
     ANALYSE_AND_FACTOR,
     DEFINITE,
     ENTRIES,
+    ERROR,
     ERRORS,
     FACTOR,
     FORGET,
@@ -32,7 +35,7 @@ from softway.solve.linear.backends.pardiso_call import (
 )
 from softway.solve.linear.interface import LOG, Factor, Precision, by_columns, counted, finite, number_type, unfactored
 from softway.solve.linear.pattern import Pattern
-from softway.solve.linear.power_scaling import enlarged, reduced
+from softway.solve.linear.power_scaling import PowerScaled, enlarged, reduced
 
 
 @dataclass(frozen=True, slots=True)
@@ -232,3 +235,34 @@ class _Factor:
             return None
         place = np.searchsorted(np.sort(which), which)
         return np.asarray(out[np.ix_(place, place)], float)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class SolveCall:
+    """Solution by a factor in single precision, for compiled code: addresses and exponent ``library`` (18,), and
+    ``single`` (2, f) for right-hand side and solution, see :func:`softway.kernels.slab.solution.solve`.
+
+    ``limited`` is a context in which the library has the threads of the factor, ``numbers`` are those of its call.
+    """
+
+    library: IntArray
+    single: NDArray[np.float32]
+    limited: Callable[[], AbstractContextManager[None]]
+    numbers: Ints
+    factor: _Factor
+
+    @property
+    def failed(self) -> bool:
+        """True if a solution had an error."""
+        return bool(self.numbers[ERROR])
+
+
+def solve_call(factor: Factor) -> SolveCall | None:
+    """Solution by a factor for compiled code; None if it is not one of PARDISO in single precision."""
+    factor, e = (factor.factor, factor.e) if isinstance(factor, PowerScaled) else (factor, 0)
+    if not isinstance(factor, _Factor) or factor.values.dtype != np.float32 or factor.indefinite:
+        return None
+    call = factor.handle.call
+    single = np.zeros((2, int(call.numbers[SIZE])), np.float32)
+    arguments, numbers = call.solution(address(factor.values), address(single[0]), address(single[1]))
+    return SolveCall(np.append(arguments, e), single, call.limited, numbers, factor)

@@ -1,6 +1,8 @@
 """A call of PARDISO with the memory of one matrix."""
 
 import ctypes
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any, Self
 
@@ -100,12 +102,30 @@ class PardisoCall:
         marks[which] = 1
         return self._with((self.limit, self.function), self.threads, (numbers, parameters), (*self.read[:2], marks))
 
+    def solution(self, values: int, b: int, x: int) -> tuple[IntArray, Ints]:
+        """Addresses (17,) of the arguments of a solution for one right-hand side, and of the function; and its numbers,
+        which have to be kept.
+        """
+        numbers = self.numbers.copy()
+        numbers[[PHASE, COUNT, ERROR]] = SOLVE, 1, 0
+        moved = address(numbers) - address(self.numbers)
+        own = range(address(self.numbers), address(self.numbers) + self.numbers.nbytes)
+        given = (*self.head, values, *self.pattern, *self.tail, b, x, own[0] + 4 * ERROR)
+        function = ctypes.cast(self.function, ctypes.c_void_p).value
+        return np.array([*(a + moved if a in own else a for a in given), function], np.int64), numbers
+
+    @contextmanager
+    def limited(self) -> Iterator[None]:
+        """Let the library use the threads of this call."""
+        before = self.limit(self.threads)
+        try:
+            yield
+        finally:
+            self.limit(before)
+
     def __call__(self, phase: int, values: int = 0, count: int = 1, b: int = 0, x: int = 0) -> int:
         """Run a phase and return its error, with the addresses of entries, ``count`` right-hand sides and solutions."""
         self.numbers[PHASE], self.numbers[COUNT] = phase, count
-        before = self.limit(self.threads)
-        try:
+        with self.limited():
             self.function(*self.head, values, *self.pattern, *self.tail, b, x, address(self.numbers) + 4 * ERROR)
-        finally:
-            self.limit(before)
         return int(self.numbers[ERROR])
