@@ -3,7 +3,7 @@
 from typing import NamedTuple
 
 from softway.arrays import Array, BoolArray, IntArray
-from softway.kernels.jit.by_address import BLOCKS, FLAGS, NUMBERS, ROWS, WHOLE, WHOLES, table
+from softway.kernels.jit.by_address import BLOCKS, FLAGS, NUMBERS, ROWS, WHOLE, WHOLES, Tuple, caller, table
 
 
 class Bodies(NamedTuple):
@@ -111,6 +111,17 @@ class Work(NamedTuple):
     group: Array
     works: Array
 
+
+class Slab(NamedTuple):
+    """What optional parts of a kernel receive: addresses ``places`` (8,) of its tables, and the number of a slab."""
+
+    places: IntArray
+    number: int
+
+
+SLAB = Tuple.of(Slab, WHOLES, WHOLE)
+call_part = caller(SLAB)
+"""Kind of the argument of a part, and the call of the part at an address."""
 
 bodies_at = table(
     "Bodies",
