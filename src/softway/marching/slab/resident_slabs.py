@@ -30,7 +30,7 @@ from softway.kernels.slab.tables import (
     Course,
 )
 from softway.marching.slab.resident_model import ResidentModel
-from softway.marching.slab.slab_batch import SlabBatch, contractions
+from softway.marching.slab.slab_batch import AHEAD, TOGETHER, SlabBatch
 from softway.marching.state.march_state import EnergyAccount, MarchState, Settings
 from softway.marching.state.step_control import above
 from softway.model.scene import State
@@ -38,12 +38,10 @@ from softway.solve.operators.operator_memory import OperatorMemory
 from softway.tolerances import BALANCED, DEPTH, UNSTABLE
 from softway.tolerances import MOMENTUM as MISSED
 
-TOGETHER, BYTES = 256, 1e9
-"""Greatest number of slabs in a batch, and of bytes of their states on the device."""
+BYTES = 1e9
+"""Greatest number of bytes of the states of a batch on the device."""
 FIELDS = 7
 """Nodal fields of a state."""
-AHEAD = 2.0
-"""Slabs at the end of a march that are not on the device: the last one ends at a given instant."""
 MIDDLE = 1.0 / 12.0
 """Factor of ``h^2 |a1 - a0|`` in the error of a displacement."""
 
@@ -94,18 +92,10 @@ def next_resident(
         lengths.append(length)
     if not lengths:
         return None
-    model, iterations = resident.model, (1,) * len(lengths)
-    return SlabBatch(
-        model=model,
-        begun=march_state,
-        memory=memory,
-        course=_course(resident, states, sums, met),
-        iterations=iterations,
-        contractions=contractions(sums[: len(lengths)], iterations),
-        rows=model.contacts.rest(model.displacement, 0.0).start(model.displacement),
-        states={0: before},
-        lengths=tuple(lengths),
-    )
+    model, course = resident.model, _course(resident, states, sums, met)
+    rows = model.contacts.rest(model.displacement, 0.0).start(model.displacement)
+    begun = march_state, before, memory
+    return SlabBatch.of(model, course, rows, len(lengths), begun, lengths=tuple(lengths))
 
 
 def _filled(sums: Array, met: Array, told: Any, energy: Array, account: EnergyAccount) -> None:
