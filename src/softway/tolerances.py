@@ -30,3 +30,7 @@ KEEP_FACETS_AFTER = 15
 """Number of iterations after which nodes are kept on their facets: a node between two facets would alternate."""
 INDEPENDENT = 1e-13
 """Least eigenvalue, for each of them, of the products of unit differences of residuals that is used in mixing."""
+DECIDED = 0.5
+"""Part of a limit within which a decision of a compiled slab is certain: the solver for all models takes it, too."""
+BALANCED = 0.5
+"""Part of a limit within which a balance of a compiled slab certainly holds."""

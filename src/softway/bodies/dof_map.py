@@ -158,7 +158,7 @@ class NodalDofs:
 
     def rows(self, gradient: sp.csr_array) -> sp.csr_array:
         """Columns (m, f) of the free components."""
-        return sp.csr_array(gradient[:, self.components])
+        return gradient if self.size == self.free.size else gradient[:, self.components]
 
     def squares(self, gradient: sp.csr_array) -> Array:
         """Squares (m,) of the magnitudes of the rows on the free components."""

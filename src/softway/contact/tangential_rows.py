@@ -47,9 +47,8 @@ class TangentialRows:
         m, k, d = self.tangents.shape
         if not self.count:
             return sp.csr_array((0, self.weights.shape[1] * d))
-        each = [normal_component(self.weights, self.tangents[:, j]) for j in range(k)]
-        order = np.arange(m * k).reshape(k, m).T.ravel()
-        return sp.csr_array(sp.vstack(each, format="csr")[order])
+        weights = self.weights if k == 1 else self.weights[np.repeat(np.arange(m), k)]
+        return normal_component(weights, self.tangents.reshape(m * k, d))
 
     def flat(self, vectors: Array) -> Array:
         """Tangential components (m, k) of vectors (m, d)."""

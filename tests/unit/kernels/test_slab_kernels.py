@@ -4,11 +4,25 @@ import numpy as np
 import pytest
 
 from softway.kernels.jit.by_address import packed
+from softway.kernels.jit.compilation import uncounted_kernel
 from softway.kernels.multibody.band import factor_band
-from softway.kernels.slab.band import solve_many, spread_factor
-from softway.kernels.slab.stored.mixing import mix_at
-from softway.kernels.slab.stored.tables import BALANCE, LIMITS, TAKEN, Search
+from softway.kernels.slab.band import solve_spread, spread_factor
+from softway.kernels.slab.stored.mixing import mix
+from softway.kernels.slab.stored.tables import BALANCE, LIMITS, TAKEN, Search, search_at
 from softway.solve.methods.anderson import Anderson
+
+
+@uncounted_kernel
+def solve_many(down, up, pivot, answers):
+    """Solve in place for several right-hand sides (k, f)."""
+    for k in range(len(answers)):
+        solve_spread(down, up, pivot, answers[k])
+
+
+@uncounted_kernel
+def mix_at(place, residual, q, impulse):
+    """Mix with the ``Search`` at an address."""
+    mix(search_at(place), residual, q, impulse)
 
 
 @pytest.mark.parametrize(("n", "w"), [(1, 0), (2, 1), (5, 2), (9, 8), (40, 1), (41, 3), (42, 4), (43, 9), (64, 63)])

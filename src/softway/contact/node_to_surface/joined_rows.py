@@ -36,7 +36,8 @@ def joined_rows(
     found = [m.at(x) for m in surfaces]
     d = x.shape[1]
     normal = np.concatenate([np.zeros((0, d)), *(s.normal for s in found)])
-    gradient = _gradient(found, normal, len(x))
+    weights = _stacked([s.weights for s in found], len(x))
+    gradient = _gradient(found, weights, normal)
     gap = np.concatenate([np.zeros(0), *(s.gap for s in found)])
     tool_motion = [
         m.normal_motion(x, s.normal) if isinstance(m, ToolContact) else np.zeros(len(s.gap))
@@ -50,27 +51,29 @@ def joined_rows(
         offset=gap - gradient @ u.ravel(),
         tool_motion=np.concatenate([np.zeros(0), *tool_motion]),
         labels=labels,
-        shear=_shear(surfaces, found, x, normal) if frictionless is None else frictionless,
+        shear=_shear(surfaces, found, x, weights, normal) if frictionless is None else frictionless,
     )
 
 
-def _weights(found: list[Stencils], nodes: int) -> sp.csr_array:
-    """Weights (m, n) of all rows."""
-    return sp.csr_array(sp.vstack([sp.csr_array((0, nodes)), *(s.weights for s in found)], format="csr"))
+def _stacked(rows: list[sp.csr_array], columns: int) -> sp.csr_array:
+    """Rows (m, columns) of several matrices, one after another; those of a single one as they are."""
+    return rows[0] if len(rows) == 1 else sp.vstack([sp.csr_array((0, columns)), *rows], format="csr")
 
 
-def _gradient(found: list[Stencils], normal: Array, nodes: int) -> sp.csr_array:
-    """Derivatives (m, n d) of the gaps: from all weights (m, n) and normals (m, d) at once where these give them."""
+def _gradient(found: list[Stencils], weights: sp.csr_array, normal: Array) -> sp.csr_array:
+    """Derivatives (m, n d) of the gaps: from weights (m, n) and normals (m, d) at once where these give them."""
     if all(s.slopes is None for s in found):
-        return normal_component(_weights(found, nodes), normal)
-    return sp.csr_array(sp.vstack([s.gradient() for s in found], format="csr"))
+        return normal_component(weights, normal)
+    return _stacked([s.gradient() for s in found], weights.shape[1] * normal.shape[1])
 
 
-def _shear(surfaces: Sequence[PairedSurfaces], found: list[Stencils], x: Array, normal: Array) -> TangentialRows:
-    """Tangential parts of the rows with normals (m, d), at positions ``x`` (n, d)."""
+def _shear(
+    surfaces: Sequence[PairedSurfaces], found: list[Stencils], x: Array, weights: sp.csr_array, normal: Array
+) -> TangentialRows:
+    """Tangential parts of the rows with weights (m, n) and normals (m, d), at positions ``x`` (n, d)."""
     moved = [
         m.moved(x) if isinstance(m, ToolContact) else np.zeros_like(s.normal)
         for m, s in zip(surfaces, found, strict=True)
     ]
     motion = np.concatenate([np.zeros((0, x.shape[1])), *moved])
-    return TangentialRows(weights=_weights(found, len(x)), tangents=tangents(normal), moved=motion)
+    return TangentialRows(weights=weights, tangents=tangents(normal), moved=motion)

@@ -5,7 +5,8 @@ inlined, and are compiled again in each of their callers.  A table by address is
 nanoseconds, and an access loads one array.  Its address is a number (``table``), or taken of a named tuple at the
 entry of a kernel (``passed_by_address``).
 
-Optional parts of kernels are called by their address, too: a march that does not need a part does not compile it.
+Large functions and optional parts of kernels are called by their address, too (``caller``): each is compiled once, and
+a march that does not need a part does not compile it.
 """
 
 from collections.abc import Callable
@@ -31,10 +32,10 @@ from numba.extending import (
 from softway.arrays import IntArray
 
 WHOLE, WHOLES, FLAGS = types.int64, types.int64[::1], types.boolean[::1]
-NUMBERS, ROWS, BLOCKS = types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
+NUMBER, NUMBERS, ROWS, BLOCKS = types.float64, types.float64[::1], types.float64[:, ::1], types.float64[:, :, ::1]
 SINGLES, LANES = types.float32[:, ::1], types.uint32[:, :, ::1]
-"""Kinds of entries: a whole number, arrays of whole numbers and of truth values, arrays of one to three indices,
-numbers in single precision, and whole numbers of the cells in lanes.
+"""Kinds of entries: a whole number, arrays of whole numbers and of truth values, a number, arrays of one to three
+indices, numbers in single precision, and whole numbers of the cells in lanes.
 """
 ARGUMENTS = 16
 """Number of arguments of a solution by PARDISO."""
@@ -101,18 +102,6 @@ def table(name: str, **entries: Any) -> Callable[[int], Any]:
     return at  # type: ignore[no-any-return]
 
 
-@intrinsic
-def call_with(typing, address, place):
-    """Call the :func:`~softway.kernels.jit.compilation.task` at an address with the address of a table."""
-
-    def generate(context, builder, signature, args):
-        kind = ir.FunctionType(ir.VoidType(), [ir.IntType(64)]).as_pointer()
-        builder.call(builder.inttoptr(args[0], kind), [args[1]])
-        return context.get_dummy_value()
-
-    return types.none(types.int64, types.int64), generate
-
-
 class Tuple(types.Type):
     """Numba type of the address of a named tuple; a tuple in it has its address, too."""
 
@@ -120,6 +109,11 @@ class Tuple(types.Type):
         kind = f"{whole.instance_class.__name__}.{sha256(str(whole).encode()).hexdigest()[:12]}"
         super().__init__(name=f"softway.{kind}")
         self.whole = whole
+
+    @classmethod
+    def of(cls, kind: type, *entries: Any) -> "Tuple":
+        """Type of the address of a class of named tuples with entries of these kinds."""
+        return cls(types.BaseTuple.from_types(entries, kind))
 
     def entry(self, name: str) -> Any:
         """Type of an entry; None for another name."""
@@ -181,20 +175,25 @@ def passed_by_address(kind: type) -> type:
     return kind
 
 
-def caller(kind: Tuple) -> Callable[[int, Any], Any]:
-    """Function for kernels that calls a function at an address with a named tuple of this kind, and returns a number.
+def caller(kind: Any) -> Callable[[int, Any], Any]:
+    """Function for kernels that calls a :func:`~softway.kernels.jit.compilation.function_at` an address, and returns
+    its number.
 
-    The function is compiled once; kernels contain none of its code.
+    Its argument is a whole number, as the address of a table is, or a named tuple, whose address is passed on.  The
+    function is compiled once; kernels contain none of its code.
     """
+    passed = kind.whole if isinstance(kind, Tuple) else kind
 
     @intrinsic
     def call(typing, address, given):
         def generate(context, builder, signature, args):
-            place = builder.bitcast(cgutils.alloca_once_value(builder, args[1]), ir.IntType(8).as_pointer())
-            function = ir.FunctionType(ir.IntType(64), [place.type]).as_pointer()
-            return builder.call(builder.inttoptr(args[0], function), [place])
+            value = args[1]
+            if isinstance(kind, Tuple):
+                value = builder.bitcast(cgutils.alloca_once_value(builder, value), ir.IntType(8).as_pointer())
+            function = ir.FunctionType(ir.IntType(64), [value.type]).as_pointer()
+            return builder.call(builder.inttoptr(args[0], function), [value])
 
-        return (types.int64(types.int64, given), generate) if given == kind.whole else None
+        return (types.int64(types.int64, given), generate) if given == passed else None
 
     return call  # type: ignore[no-any-return]
 
@@ -203,19 +202,6 @@ def _whole(value: Any, context: Any) -> Any:
     """Numba type of a named tuple by value, with the tuples in it by value."""
     parts = [_whole(v, context) if hasattr(v, "_fields") else typeof_impl(v, context) for v in value]
     return types.BaseTuple.from_types(tuple(parts), type(value))
-
-
-@intrinsic
-def ask(typing, address, places, number):
-    """Call the part at an address with an array of addresses and a number; its answer."""
-
-    def generate(context, builder, signature, args):
-        whole = ir.IntType(64)
-        kind = ir.FunctionType(whole, [whole.as_pointer(), whole]).as_pointer()
-        data = context.make_array(signature.args[1])(context, builder, args[1]).data
-        return builder.call(builder.inttoptr(args[0], kind), [data, args[2]])
-
-    return types.int64(types.int64, types.int64[::1], types.int64), generate
 
 
 @intrinsic

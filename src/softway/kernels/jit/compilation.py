@@ -1,7 +1,8 @@
 """Compilation of kernels, with a cache on disk.
 
-Numba looks for changes only in the file of a kernel, but kernels share parts from other files.  The name of a cached
-kernel therefore contains a digest of these files.
+Numba looks for changes only in the file of a kernel, but kernels share parts from other files, and the types of named
+tuples do not tell the order of their entries.  The name of a cached kernel therefore contains a digest of all files
+with shared parts and named tuples.
 """
 
 from collections.abc import Callable
@@ -13,7 +14,7 @@ from numba import cfunc, njit, types
 from numba.extending import register_jitable
 
 Stage = Any
-"""Compiled function ``(state, moduli)`` of one point in every lane; both arguments are addresses of numbers."""
+"""Compiled function with an ``address``; of a point in every lane, ``(state, moduli)``, both addresses of numbers."""
 
 # Products may be fused with sums, but nothing is reordered; division by zero raises no error.
 _EXACT: dict[str, Any] = {"fastmath": {"contract"}, "error_model": "numpy"}
@@ -21,35 +22,32 @@ _KERNEL = _EXACT | {"nogil": True, "no_cfunc_wrapper": True}
 _PART = _EXACT | {"forceinline": True, "no_cfunc_wrapper": True, "no_cpython_wrapper": True}
 # Numba counts references to arrays by atomic operations, which take longer than a slab of a small mechanism.
 _UNCOUNTED: dict[str, Any] = {"_nrt": False}
-_PART_ASKED = types.int64(types.CPointer(types.int64), types.int64)
 _POINT = types.void(types.CPointer(types.float64), types.CPointer(types.float64))
-_TASK = types.void(types.int64)
 _SHARED = (
-    "jit/by_address.py",
-    "jit/compilation.py",
-    "jit/elementary.py",
-    "jit/lanes.py",
-    "jit/simd.py",
+    "../arrays.py",
+    "../tolerances.py",
     "fused/elastic.py",
     "fused/history_stages.py",
     "fused/inelastic.py",
     "fused/mean_dilatation.py",
     "fused/mean_elastic.py",
     "fused/stages.py",
+    "jit/by_address.py",
+    "jit/compilation.py",
+    "jit/elementary.py",
+    "jit/lanes.py",
+    "jit/simd.py",
+    "jit/threads.py",
+    "mortar/distance_slopes.py",
     "mortar/dual_basis.py",
+    "mortar/facing.py",
+    "mortar/heights.py",
     "mortar/simplices.py",
     "mortar/tables.py",
+    "mortar/triangles.py",
     "multibody/angles.py",
     "multibody/band.py",
-    "rigid_contact/closed_stops.py",
-    "rigid_contact/cone.py",
-    "rigid_contact/cone_call.py",
-    "rigid_contact/contact.py",
-    "rigid_course/stops.py",
-    "rigid_contact/dense.py",
-    "rigid_contact/routh.py",
     "multibody/copies.py",
-    "rigid_course/course.py",
     "multibody/drives.py",
     "multibody/energy.py",
     "multibody/forces.py",
@@ -65,6 +63,14 @@ _SHARED = (
     "pile/sweeps.py",
     "pile/tables.py",
     "pile/through.py",
+    "rigid_contact/closed_stops.py",
+    "rigid_contact/cone.py",
+    "rigid_contact/cone_call.py",
+    "rigid_contact/contact.py",
+    "rigid_contact/dense.py",
+    "rigid_contact/routh.py",
+    "rigid_contact/tables.py",
+    "rigid_course/course.py",
     "slab/apart.py",
     "slab/audit.py",
     "slab/band.py",
@@ -80,7 +86,6 @@ _SHARED = (
     "slab/stored/turning.py",
     "slab/tables.py",
     "slab/works.py",
-    "../tolerances.py",
 )
 SMALL = 4000
 """Numbers of entries below which kernels of whole numbers take less time without their compilation."""
@@ -93,19 +98,16 @@ def stage(function: Callable[..., None]) -> Stage:
     return _kept(lambda **options: cfunc(_POINT, **options), function, _EXACT)
 
 
-def task(function: Callable[..., None]) -> Stage:
-    """Compile a function of the address of a table, which kernels call by its own address, and cache it on disk."""
-    return _kept(lambda **options: cfunc(_TASK, **options), function, _EXACT)
-
-
 def function_at(kind: Any, function: Callable[..., int]) -> Stage:
-    """Compile a function of the address of a named tuple, which kernels call by its address, and cache it on disk."""
+    """Compile a function of one argument of this kind, which kernels call by its address with a
+    :func:`~softway.kernels.jit.by_address.caller` of the kind, and cache it on disk.
+    """
     return _kept(lambda **options: cfunc(types.int64(kind), **options), function, _EXACT)
 
 
-def asked(function: Callable[..., int]) -> Any:
-    """Compile an optional part of kernels, which these call by its address, and cache it on disk."""
-    return _kept(lambda **options: cfunc(_PART_ASKED, **options), function, _EXACT | _UNCOUNTED)
+def uncounted_function_at(kind: Any, function: Callable[..., int]) -> Stage:
+    """Compile a function as :func:`function_at`, which allocates no arrays and counts no references to them."""
+    return _kept(lambda **options: cfunc(types.int64(kind), **options), function, _EXACT | _UNCOUNTED)
 
 
 def kernel(function: Callable[..., Any]) -> Callable[..., Any]:

@@ -52,10 +52,3 @@ def push_row(joints, motion, space, k, impulse):
                 + space.R0[i, 1, c] * space.MG[k, side, 4]
                 + space.R0[i, 2, c] * space.MG[k, side, 5]
             )
-
-
-@uncounted_kernel
-def row_velocities(joints, motion, space, out):
-    """Velocities (r,) of all rows at a prepared state."""
-    for k in range(len(out)):
-        out[k] = joint_velocity(joints, motion, space, k)

@@ -3,10 +3,8 @@
 from functools import cache
 from typing import NamedTuple
 
-from numba import types
-
 from softway.arrays import Array
-from softway.kernels.jit.by_address import NUMBERS, ROWS, Tuple, caller
+from softway.kernels.jit.by_address import NUMBER, NUMBERS, ROWS, Tuple, caller
 from softway.kernels.jit.compilation import Stage, function_at, inlined
 from softway.kernels.rigid_contact.cone import solve_cone
 
@@ -24,8 +22,7 @@ class Cones(NamedTuple):
     x: Array
 
 
-_ENTRIES = (ROWS, NUMBERS, ROWS, ROWS, NUMBERS, NUMBERS, types.float64, NUMBERS)
-_KIND = Tuple(types.BaseTuple.from_types(_ENTRIES, Cones))
+_KIND = Tuple.of(Cones, ROWS, NUMBERS, ROWS, ROWS, NUMBERS, NUMBERS, NUMBER, NUMBERS)
 _call = caller(_KIND)
 
 

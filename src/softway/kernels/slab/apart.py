@@ -1,17 +1,15 @@
 """Deformable surfaces that certainly stay away from each other in a slab (time step): boxes around them, in loops."""
 
 from functools import cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.kernels.jit.by_address import FLAGS, NUMBERS, ROWS, WHOLES, table
-from softway.kernels.jit.compilation import asked, called
-from softway.kernels.slab.tables import bodies_at, course_at
-
-SURE = 0.5
-"""Part of a limit within which a decision is certain."""
+from softway.kernels.jit.compilation import Stage, called, uncounted_function_at
+from softway.kernels.slab.tables import SLAB, bodies_at, course_at
+from softway.tolerances import DECIDED
 
 
 class Surfaces(NamedTuple):
@@ -63,14 +61,15 @@ surfaces_at = table(
 
 
 @cache
-def apart() -> Any:
+def apart() -> Stage:
     """Part that allows slabs in which no surfaces come near each other, and none of those near go away; their table is
     the sixth.
     """
-    return asked(_apart)
+    return uncounted_function_at(SLAB, _apart)
 
 
-def _apart(places, s):
+def _apart(slab):
+    places, s = slab.places, slab.number
     return 1 if stay_apart(bodies_at(places[0]), course_at(places[3]), surfaces_at(places[5]), s) else 0
 
 
@@ -95,7 +94,7 @@ def stay_apart(bodies, course, surfaces, s):
         strayed = surfaces.magnified[a] * surfaces.strayed[a] + surfaces.magnified[b] * surfaces.strayed[b]
         needed = max(needed, surfaces.raised[p] + strayed)
     for p in range(len(surfaces.one)):
-        distance = max(surfaces.distance[p], 2.0 * needed) / SURE
+        distance = max(surfaces.distance[p], 2.0 * needed) / DECIDED
         if not (_close(surfaces, p) if surfaces.near[p] else _beside(bodies, surfaces, p, distance)):
             return False
     return needed < np.inf
@@ -119,7 +118,7 @@ def _beside(bodies, surfaces, p, distance):
 def _close(surfaces, p):
     """True if a pair of ends of bars is within half the distance of the search."""
     a, b = surfaces.one[p], surfaces.other[p]
-    return abs(surfaces.centre[a, 0] - surfaces.centre[b, 0]) <= SURE * surfaces.distance[p]
+    return abs(surfaces.centre[a, 0] - surfaces.centre[b, 0]) <= DECIDED * surfaces.distance[p]
 
 
 @called

@@ -22,11 +22,8 @@ from softway.kernels.slab.tables import (
     WORK,
 )
 from softway.kernels.slab.works import ENDS, LOADED, MOVING, SIZE, STILL, part_works
-from softway.tolerances import AT_REST, BEQUEST, DEPTH, ENERGY, SUMS
+from softway.tolerances import AT_REST, BALANCED, BEQUEST, DEPTH, ENERGY, SUMS
 from softway.tolerances import MOMENTUM as MISSED
-
-SURE = 0.5
-"""Part of a limit within which a balance certainly holds."""
 
 
 @called
@@ -62,7 +59,7 @@ def closes(bodies, rows, course, work, unit, s):
         work.group[g, 1] += SUMS * 2.0 * abs(force * rows.moved[r])
     closed = True
     for g in range(len(work.group)):
-        closed = closed and abs(work.group[g, 0]) <= SURE * work.group[g, 1]
+        closed = closed and abs(work.group[g, 0]) <= BALANCED * work.group[g, 1]
     return closed
 
 
@@ -90,11 +87,11 @@ def audited(bodies, rows, course, work, account, s):
     for part in range(len(bodies.floor)):
         rest += bodies.floor[part]
     step = course.sums[s, ERROR] - (course.sums[s - 1, ERROR] if s else account[2])
-    if not abs(step) <= SURE * (ENERGY * level + AT_REST * rest) or not gap >= -SURE * DEPTH * extent(
+    if not abs(step) <= BALANCED * (ENERGY * level + AT_REST * rest) or not gap >= -BALANCED * DEPTH * extent(
         bodies, course.u[s + 1]
     ):
         return False
-    limit = SURE * MISSED * size
+    limit = BALANCED * MISSED * size
     return course.sums[s, UNCLOSED] <= limit and _unrest(bodies, rows, course, work, h, s) <= BEQUEST * limit
 
 

@@ -55,10 +55,3 @@ def _subtract(x, one, two, three, four, by):
     a, b, c, d = by[0], by[1], by[2], by[3]
     for i in range(len(x)):
         x[i] -= one[i] * a + two[i] * b + three[i] * c + four[i] * d
-
-
-@uncounted_kernel
-def solve_many(down, up, pivot, answers):
-    """Solve in place for several right-hand sides (k, f)."""
-    for k in range(len(answers)):
-        solve_spread(down, up, pivot, answers[k])

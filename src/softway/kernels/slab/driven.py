@@ -1,12 +1,12 @@
 """Loads, tools and supports that change with time: their values at both ends of a slab (time step)."""
 
 from functools import cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from softway.arrays import Array, IntArray
 from softway.kernels.jit.by_address import BLOCKS, NUMBERS, ROWS, WHOLES, table
-from softway.kernels.jit.compilation import asked, called
-from softway.kernels.slab.tables import bodies_at, rows_at
+from softway.kernels.jit.compilation import Stage, called, uncounted_function_at
+from softway.kernels.slab.tables import SLAB, bodies_at, rows_at
 
 
 class Drives(NamedTuple):
@@ -48,12 +48,13 @@ drives_at = table(
 
 
 @cache
-def driven() -> Any:
+def driven() -> Stage:
     """Part that sets loads, rows and supports of a slab; its table is the seventh."""
-    return asked(_driven)
+    return uncounted_function_at(SLAB, _driven)
 
 
-def _driven(places, s):
+def _driven(slab):
+    places, s = slab.places, slab.number
     bodies, rows, drives = bodies_at(places[0]), rows_at(places[1]), drives_at(places[6])
     if len(drives.field):
         set_loads(bodies, drives, s)

@@ -1,13 +1,13 @@
 """Friction on half-spaces in a slab (time step): rows that certainly stick or slip as before, and their heat."""
 
 from functools import cache
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from softway.arrays import Array, BoolArray, IntArray
 from softway.kernels.jit.by_address import FLAGS, NUMBERS, ROWS, WHOLE, WHOLES, table
-from softway.kernels.jit.compilation import asked, called
+from softway.kernels.jit.compilation import Stage, called, uncounted_function_at
 from softway.kernels.slab.products import along, greatest
-from softway.kernels.slab.tables import FORCE_T, LOST, bodies_at, course_at, operator_at, rows_at, work_at
+from softway.kernels.slab.tables import FORCE_T, LOST, SLAB, bodies_at, course_at, operator_at, rows_at, work_at
 
 CERTAIN = 1e-6
 """Difference from a limit, relative to it, beyond which a row certainly sticks; of the velocity, one that slips."""
@@ -51,12 +51,13 @@ friction_at = table(
 
 
 @cache
-def rubbing() -> Any:
+def rubbing() -> Stage:
     """Part that allows a solved slab in which all rows stick or slip as before; its table is the eighth."""
-    return asked(_rubbing)
+    return uncounted_function_at(SLAB, _rubbing)
 
 
-def _rubbing(places, s):
+def _rubbing(slab):
+    places, s = slab.places, slab.number
     bodies, rows, operator = bodies_at(places[0]), rows_at(places[1]), operator_at(places[2])
     course, work, friction = course_at(places[3]), work_at(places[4]), friction_at(places[7])
     h = course.time[s + 1] - course.time[s]

@@ -7,26 +7,26 @@ that is not zero, or a balance within half its limit.  So both take the same dec
 
 import numpy as np
 
-from softway.kernels.jit.by_address import ask
 from softway.kernels.jit.compilation import called, uncounted_kernel
 from softway.kernels.multibody.band import factor_band
 from softway.kernels.slab.audit import audited, closes
-from softway.kernels.slab.products import along, elastic, extent, greatest, momenta
+from softway.kernels.slab.products import add_impulse, along, elastic, extent, greatest, momenta, spread
 from softway.kernels.slab.solution import solve, solve_with
 from softway.kernels.slab.tables import (
     FIRST,
     ITERATIONS,
     LAST,
     LOST,
+    Slab,
     bodies_at,
+    call_part,
     course_at,
     operator_at,
     rows_at,
     work_at,
 )
+from softway.tolerances import DECIDED
 
-SURE = 0.5
-"""Part of a limit within which a decision is certain."""
 LEAST = 1e-9
 """Force of a row, relative to the greatest one, above which it stays closed."""
 CLOSE = 1e-14
@@ -52,13 +52,9 @@ def answer(bodies_place, rows_place, r, down, up, pivot, single, library, x, out
     """Answer (N,) of the operator to a unit impulse on a row; ``x`` (f,) is work space."""
     bodies, rows = bodies_at(bodies_place), rows_at(rows_place)
     x[:] = 0.0
-    for e in range(rows.start[r], rows.start[r + 1]):
-        place = bodies.place[rows.component[e]]
-        if place >= 0:
-            x[place] += rows.value[e]
+    add_impulse(bodies, rows, r, 1.0, x)
     solve(down, up, pivot, single, library, x)
-    for c in range(len(out)):
-        out[c] = x[bodies.place[c]] if bodies.place[c] >= 0 else 0.0
+    spread(bodies, x, out)
 
 
 @uncounted_kernel
@@ -75,15 +71,15 @@ def slabs(places, parts, tolerance, account, wanted):
     momenta(bodies, course.v[0], work.before)
     for s in range(wanted):
         if parts[PREPARES] != 0:
-            ask(parts[PREPARES], places, s)
+            call_part(parts[PREPARES], Slab(places, s))
         if not _slab(bodies, rows, operator, course, work, tolerance, s):
             return s
         course.sums[s, LOST] = account[3]
-        if parts[RUBS] != 0 and ask(parts[RUBS], places, s) == 0:
+        if parts[RUBS] != 0 and call_part(parts[RUBS], Slab(places, s)) == 0:
             return s
         if not audited(bodies, rows, course, work, account, s):
             return s
-        if parts[ALLOWS] != 0 and ask(parts[ALLOWS], places, s) == 0:
+        if parts[ALLOWS] != 0 and call_part(parts[ALLOWS], Slab(places, s)) == 0:
             return s
         for c in range(len(work.q)):
             work.before[c] = work.after[c]
@@ -113,9 +109,9 @@ def _slab(bodies, rows, operator, course, work, tolerance, s):
             return False
         if not stays(bodies, rows, operator, course, work, h, rounding, s):
             return False
-        if change <= SURE * tolerance * scale:
+        if change <= DECIDED * tolerance * scale:
             break
-        if count == 2 or change <= tolerance * scale / SURE:
+        if count == 2 or change <= tolerance * scale / DECIDED:
             return False
     course.sums[s, ITERATIONS], course.sums[s, LAST] = count, change
     arrive(bodies, course.u[s], course.v[s], work.q, h, course.u[s + 1])
@@ -161,8 +157,7 @@ def _iterated(bodies, rows, operator, course, work, h, s):
     add_impulses(bodies, rows, operator.active, course.pressure[s + 1], x)
     add_impulses(bodies, rows, operator.slip, course.pressure[s + 1], x)
     solve_with(operator, x[: len(operator.pivot)])
-    for c in range(len(field)):
-        field[c] = x[bodies.place[c]] if bodies.place[c] >= 0 else 0.0
+    spread(bodies, x, field)
     return press(bodies, rows, operator, course, work, h, s)
 
 
@@ -170,10 +165,7 @@ def _iterated(bodies, rows, operator, course, work, h, s):
 def add_impulses(bodies, rows, which, impulse, x):
     """Add the impulses of some rows to those of the unknowns."""
     for k in range(len(which)):
-        r = which[k]
-        for e in range(rows.start[r], rows.start[r + 1]):
-            if bodies.place[rows.component[e]] >= 0:
-                x[bodies.place[rows.component[e]]] += rows.value[e] * impulse[r]
+        add_impulse(bodies, rows, which[k], impulse[which[k]], x)
 
 
 @called
@@ -238,6 +230,6 @@ def stays(bodies, rows, operator, course, work, h, rounding, s):
         if rows.move[r] and impulse[r] == 0.0:
             now = along(rows, r, work.q)
             slack = now - _target(bodies, rows, course, h, s, r)
-            if not slack > max(rounding, CLOSE * (abs(slack) + abs(now))) / SURE:
+            if not slack > max(rounding, CLOSE * (abs(slack) + abs(now))) / DECIDED:
                 return False
     return True

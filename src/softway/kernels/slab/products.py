@@ -38,6 +38,22 @@ def elastic(bodies, u, force, energy):
 
 
 @called
+def add_impulse(bodies, rows, r, impulse, x):
+    """Add the impulse of a row to those of the unknowns x (f,)."""
+    for e in range(rows.start[r], rows.start[r + 1]):
+        place = bodies.place[rows.component[e]]
+        if place >= 0:
+            x[place] += rows.value[e] * impulse
+
+
+@called
+def spread(bodies, x, out):
+    """Field (N,) of unknowns x (f,); zero on supported components."""
+    for c in range(len(out)):
+        out[c] = x[bodies.place[c]] if bodies.place[c] >= 0 else 0.0
+
+
+@called
 def along(rows, r, field):
     """Component of a field (N,) along a row."""
     total = 0.0

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from softway.arrays import Array, BoolArray, IntArray
-from softway.kernels.jit.by_address import BLOCKS, FLAGS, NUMBERS, ROWS, SINGLES, WHOLE, WHOLES, table
+from softway.kernels.jit.by_address import BLOCKS, FLAGS, NUMBERS, ROWS, SINGLES, WHOLE, WHOLES, Tuple, caller, table
 
 
 class Bodies(NamedTuple):
@@ -117,6 +117,17 @@ class Work(NamedTuple):
     group: Array
     works: Array
 
+
+class Slab(NamedTuple):
+    """What optional parts of a kernel receive: addresses ``places`` (8,) of its tables, and the number of a slab."""
+
+    places: IntArray
+    number: int
+
+
+SLAB = Tuple.of(Slab, WHOLES, WHOLE)
+call_part = caller(SLAB)
+"""Kind of the argument of a part, and the call of the part at an address."""
 
 bodies_at = table(
     "Bodies",

@@ -11,23 +11,20 @@ from softway.kernels.slab.apart import apart
 from softway.kernels.slab.driven import driven
 from softway.kernels.slab.friction import rubbing
 from softway.kernels.slab.march import slabs
-from softway.kernels.slab.tables import ITERATIONS, MET, SUMS, Bodies, Course, Rows, Work
+from softway.kernels.slab.tables import MET, SUMS, Bodies, Course, Rows, Work
 from softway.kernels.slab.works import WORKS
 from softway.marching.slab.compiled_model import CompiledModel, SlabTables
 from softway.marching.slab.rows.driven import drives
 from softway.marching.slab.rows.friction import friction_table
-from softway.marching.slab.slab_batch import SlabBatch, contractions
-from softway.marching.state.march_state import MarchState
+from softway.marching.slab.slab_batch import AHEAD, TOGETHER, SlabBatch
+from softway.marching.state.march_state import EnergyAccount, MarchState
 from softway.marching.state.model_state import ModelState
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.solve.operators.operator_memory import USUAL, WORN, OperatorMemory
 
-TOGETHER, NUMBERS = 256, 200_000
-"""Greatest number of slabs in a call, and of numbers of their states."""
-AHEAD = 2.0
-"""Slabs at the end of a march that are not compiled: the last one ends at a given instant."""
-
+NUMBERS = 200_000
+"""Greatest number of numbers of the states in a call."""
 SAME = 1e-9
 """Relative difference of the lengths of slabs that have the same operator."""
 
@@ -59,24 +56,11 @@ def next_batch(
     count = _called(model, tables, course, march_state, compiled.tolerance)
     if not count:
         return None
-    iterations = tuple(int(i) for i in course.sums[:count, ITERATIONS].tolist())
-    return SlabBatch(
-        model=model,
-        begun=march_state,
-        memory=memory,
-        course=course,
-        iterations=iterations,
-        contractions=contractions(course.sums[:count], iterations),
-        rows=tables.contact_rows,
-        states={0: before},
-    )
+    return SlabBatch.of(model, course, tables.contact_rows, count, (march_state, before, memory))
 
 
 def _called(model: Model, tables: SlabTables, course: Course, march_state: MarchState, tolerance: float) -> int:
     """Fill a course with slabs, and return how many were computed."""
-    account = march_state.account
-    start = account.energy_start - account.remeshing
-    told = np.array([start, account.work_external, account.energy_error, account.dissipation])
     work, surfaces = new_work(tables.bodies, tables.rows), tables.surfaces
     changing = drives(model, tables.contact_rows, course.time)
     rubs = friction_table(model, tables.contact_rows, tables.held, march_state)
@@ -85,18 +69,28 @@ def _called(model: Model, tables: SlabTables, course: Course, march_state: March
     places = np.array([0 if each is None else each.ctypes.data for each in arrays])
     optional = ((surfaces, apart), (changing, driven), (rubs, rubbing))
     parts = np.array([0 if own is None else part().address for own, part in optional])
-    return int(slabs(places, parts, tolerance, told, len(course.time) - 1))
+    return int(slabs(places, parts, tolerance, told(march_state.account), len(course.time) - 1))
+
+
+def told(account: EnergyAccount) -> Array:
+    """Energy at the start, external work, error and dissipated energy (4,), for the kernels [J]."""
+    start = account.energy_start - account.remeshing
+    return np.array([start, account.work_external, account.energy_error, account.dissipation])
+
+
+def most_slabs(march_state: MarchState, span: float) -> int:
+    """Greatest number of slabs of the length ``span`` [s] in a call; less than one at the end of a march."""
+    now = march_state.state
+    left = (march_state.settings.until - now.time) / span - AHEAD
+    return int(min(left, TOGETHER, max(1, NUMBERS // (8 * now.start.displacement.size))))
 
 
 def _times(compiled: CompiledModel, march_state: MarchState, span: float, end_after: Callable[[float], float]) -> Array:
     """Ends (s + 1,) [s] of the next slabs of the length ``span`` [s], those of the solver for all models; not of the
     last ones of the march, which may be shorter.
     """
-    settings, now = march_state.settings, march_state.state
-    left = (settings.until - now.time) / compiled.span - AHEAD
-    wanted = int(min(left, TOGETHER, max(1, NUMBERS // (8 * now.start.displacement.size))))
-    times = [now.time]
-    for _ in range(wanted):
+    times = [march_state.state.time]
+    for _ in range(most_slabs(march_state, compiled.span)):
         end = end_after(times[-1]) if compiled.ends else times[-1] + compiled.span
         if abs((end - times[-1]) / span - 1.0) > SAME:
             break

@@ -30,22 +30,18 @@ from softway.kernels.slab.tables import (
     Course,
 )
 from softway.marching.slab.resident_model import ResidentModel
-from softway.marching.slab.slab_batch import SlabBatch, contractions
+from softway.marching.slab.slab_batch import AHEAD, TOGETHER, SlabBatch
 from softway.marching.state.march_state import EnergyAccount, MarchState, Settings
 from softway.marching.state.step_control import above
 from softway.model.scene import State
 from softway.solve.operators.operator_memory import OperatorMemory
-from softway.tolerances import DEPTH, UNSTABLE
+from softway.tolerances import BALANCED, DEPTH, UNSTABLE
 from softway.tolerances import MOMENTUM as MISSED
 
-TOGETHER, BYTES = 256, 1e9
-"""Greatest number of slabs in a batch, and of bytes of their states on the device."""
+BYTES = 1e9
+"""Greatest number of bytes of the states of a batch on the device."""
 FIELDS = 7
 """Nodal fields of a state."""
-AHEAD = 2.0
-"""Slabs at the end of a march that are not on the device: the last one ends at a given instant."""
-SURE = 0.5
-"""Part of a limit within which a balance certainly holds."""
 MIDDLE = 1.0 / 12.0
 """Factor of ``h^2 |a1 - a0|`` in the error of a displacement."""
 
@@ -96,18 +92,10 @@ def next_resident(
         lengths.append(length)
     if not lengths:
         return None
-    model, iterations = resident.model, (1,) * len(lengths)
-    return SlabBatch(
-        model=model,
-        begun=march_state,
-        memory=memory,
-        course=_course(resident, states, sums, met),
-        iterations=iterations,
-        contractions=contractions(sums[: len(lengths)], iterations),
-        rows=model.contacts.rest(model.displacement, 0.0).start(model.displacement),
-        states={0: before},
-        lengths=tuple(lengths),
-    )
+    model, course = resident.model, _course(resident, states, sums, met)
+    rows = model.contacts.rest(model.displacement, 0.0).start(model.displacement)
+    begun = march_state, before, memory
+    return SlabBatch.of(model, course, rows, len(lengths), begun, lengths=tuple(lengths))
 
 
 def _filled(sums: Array, met: Array, told: Any, energy: Array, account: EnergyAccount) -> None:
@@ -128,13 +116,13 @@ def _holds(
     resident: ResidentModel, sums: Array, told: Any, energies: tuple[Array, Array], account: EnergyAccount
 ) -> bool:
     """True if nothing happens in a slab and its balances certainly hold."""
-    model, limit = resident.model, SURE * DEPTH * resident.slabs.extent
+    model, limit = resident.model, BALANCED * DEPTH * resident.slabs.extent
     level = float(np.abs(energies[0]).sum() + np.abs(energies[1]).sum()) + sums[KINETIC] + abs(sums[WORK])
     touched, tension = told.worst[:, 1].max(initial=-np.inf), told.worst[:, 2].max(initial=-np.inf)
     still = told.found and told.below <= 0.0 and touched <= 0.0 and tension < 0.0
     grown = sums[ERROR] - account.energy_error
-    kept = grown <= SURE * UNSTABLE * level + float(model.floor.sum())
-    balanced = sums[UNCLOSED] <= SURE * MISSED * float(told.sums[11])
+    kept = grown <= BALANCED * UNSTABLE * level + float(model.floor.sum())
+    balanced = sums[UNCLOSED] <= BALANCED * MISSED * float(told.sums[11])
     return bool(still and kept and balanced and told.worst[:, 0].max(initial=-np.inf) <= limit)
 
 

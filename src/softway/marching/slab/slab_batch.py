@@ -7,7 +7,7 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.contact.contact_rows import ContactRows
-from softway.kernels.slab.tables import ERROR, FIRST, LAST, LOST, WORK, Course
+from softway.kernels.slab.tables import ERROR, FIRST, ITERATIONS, LAST, LOST, WORK, Course
 from softway.marching.slab.rows.driven import rows_at
 from softway.marching.slab.rows.friction import slip_velocity
 from softway.marching.state.march_state import EnergyAccount, MarchState
@@ -18,6 +18,11 @@ from softway.model.scene import State
 from softway.solve.equations.slab_values import SlabStart
 from softway.solve.methods.iteration import contraction
 from softway.solve.operators.operator_memory import OperatorMemory
+
+TOGETHER = 256
+"""Greatest number of slabs in a batch."""
+AHEAD = 2.0
+"""Slabs at the end of a march that are in no batch: the last one ends at a given instant."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -57,6 +62,38 @@ class SlabBatch:
     lengths: tuple[float, ...] = ()
     shapes: Array | None = None
     worn: bool = False
+
+    @classmethod
+    def of(
+        cls,
+        model: Model,
+        course: Course,
+        rows: ContactRows,
+        count: int,
+        begun: tuple[MarchState, State, OperatorMemory],
+        *,
+        lengths: tuple[float, ...] = (),
+        shapes: Array | None = None,
+        worn: bool = False,
+    ) -> "SlabBatch":
+        """The first ``count`` slabs of a course on contact rows, from a march state on, with the state of the bodies
+        and the memory before them.
+        """
+        sums, (march_state, before, memory) = course.sums[:count], begun
+        iterations = tuple(int(i) for i in sums[:, ITERATIONS].tolist())
+        return cls(
+            model=model,
+            begun=march_state,
+            memory=memory,
+            course=course,
+            iterations=iterations,
+            contractions=_contractions(sums, iterations),
+            rows=rows,
+            states={0: before},
+            lengths=lengths,
+            shapes=shapes,
+            worn=worn,
+        )
 
     @property
     def pairs(self) -> int:
@@ -174,7 +211,7 @@ class BatchStates:
         return model.split(support[self.number].reshape(model.shape) if len(support) else np.zeros(model.shape))
 
 
-def contractions(sums: Array, iterations: tuple[int, ...]) -> tuple[float, ...]:
+def _contractions(sums: Array, iterations: tuple[int, ...]) -> tuple[float, ...]:
     """Mean ratios of successive changes, from the sums of slabs and their numbers of iterations."""
     changes = sums[:, (FIRST, LAST)].tolist()
     return tuple(contraction(first, last, n) for (first, last), n in zip(changes, iterations, strict=True))

@@ -7,13 +7,15 @@ Given the free solution ``y`` of A y = b, find multipliers P such that ``z = y +
 The Schur complement eliminates the active rows, and one factor of A serves every active set.
 """
 
+import itertools
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray, greatest
 from softway.errors import NoConvergence
-from softway.kernels.linalg.active_set import exchanged, most_sweeps
+from softway.kernels.linalg.active_set import exchanged, most_sweeps, one_by_one
 from softway.kernels.linalg.dense import DenseFactor, factored
 from softway.solve.constraints.compliance import FrozenOperator
 from softway.solve.constraints.recent_factor import FEW
@@ -130,41 +132,23 @@ def _without_cycles(
     floor: Array | float,
     effort: Effort,
 ) -> Array:
-    """Multipliers (m,) by the method of Lawson and Hanson: one row is added at a time, and the least energy falls with
-    each, so that no set comes twice even if rows are linearly dependent.
+    """Multipliers (m,) of rows that are added one by one, so that no set comes twice even if rows depend on each other.
 
     ``bare`` (m,) are the components of the solution without contact beyond their targets, ``start`` (m,) admissible
     multipliers of the ``rows``.
     """
-    force, blocked, added = np.where(rows, np.maximum(start, 0.0), 0.0), np.zeros(len(rows), bool), -1
-    active = force > 0.0
-    for sweep in range(most_sweeps(len(rows))):
-        index = np.flatnonzero(active)
-        effort.step(f"contact of {len(rows)} rows, {len(index)} active, addition {sweep}")
+    sweep = itertools.count()
+
+    def solve(index: IntArray) -> tuple[Array, Callable[[], Array]]:
+        effort.step(f"contact of {len(rows)} rows, {len(index)} active, addition {next(sweep)}")
         _expect(frozen, coefficients, index, np.where(rows, bare, np.inf))
-        wanted, push = multipliers(frozen, coefficients.subset(index), -bare[index])
-        if len(index) and wanted.min() <= 0.0:
-            low = index[wanted <= 0.0]
-            if added in low:
-                active[added], blocked[added], added = False, True, -1
-                continue
-            part = force[low] / np.maximum(force[low] - wanted[wanted <= 0.0], 1e-300)
-            force[index] += part.min() * (wanted - force[index])
-            gone = low[part <= part.min()]
-            force[gone], active[gone] = 0.0, False
-            continue
-        force[index] = wanted
-        gap = bare + coefficients.from_basis(push.sensed)
-        wrong = rows & ~active & (gap < -floor)
-        if not wrong.any():
-            return force
-        wrong &= ~blocked
-        if not wrong.any():
-            break
-        added = int(np.argmin(np.where(wrong, gap, np.inf)))
-        active[added] = True
-        blocked[:] = False
-    raise NoConvergence(f"the {len(rows)} contact rows have no solution")
+        force, push = multipliers(frozen, coefficients.subset(index), -bare[index])
+        return force, lambda: bare + coefficients.from_basis(push.sensed)
+
+    force, left = one_by_one(rows, start, floor, solve)
+    if left.any():
+        raise NoConvergence(f"the {len(rows)} contact rows have no solution")
+    return force
 
 
 def _expect(frozen: FrozenOperator, coefficients: RowCoefficients, index: IntArray, slack: Array) -> None:

@@ -70,7 +70,7 @@ class CombinedRows:
 
     def subset(self, which: IntArray) -> "CombinedRows":
         """Subset of the rows."""
-        return CombinedRows(sp.csr_array(self.matrix[which]))
+        return CombinedRows(self.matrix[which])
 
 
 RowCoefficients = UnitRows | CombinedRows

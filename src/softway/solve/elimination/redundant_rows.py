@@ -5,14 +5,15 @@ or more.  Sets that are exchanged row by row then go round in circles.  The rows
 the step of least energy against the nodal blocks alone (docs/theory/solver/elimination.md).
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 import scipy.sparse as sp
 
-from softway.arrays import Array, BoolArray, greatest
+from softway.arrays import Array, BoolArray, IntArray, greatest
 from softway.errors import NoConvergence
-from softway.kernels.linalg.active_set import most_sweeps
+from softway.kernels.linalg.active_set import one_by_one
 from softway.kernels.linalg.dense import solve_dense
 
 MISSED = 1e-6
@@ -47,11 +48,6 @@ class LocalContact:
         start
             (m,) forces whose positive ones are tried first.
 
-        Notes
-        -----
-        One row is added at a time, and the least energy falls with each, so that no set comes twice even if rows depend
-        on each other (Lawson and Hanson 1974, Solving Least Squares Problems, chapter 23).
-
         Raises
         ------
         NoConvergence
@@ -63,29 +59,17 @@ class LocalContact:
         >>> twice.pressing(np.array([-1.0, -2.0]), np.zeros(2))
         array([False,  True])
         """
-        force = np.where(self.rows, np.maximum(start, 0.0), 0.0)
-        active, blocked, added = force > 0.0, np.zeros(len(force), bool), -1
-        for _ in range(most_sweeps(len(force))):
-            index = np.flatnonzero(active)
-            wanted = solve_dense(self.compliance[index][:, index].toarray(), -bare[index])
-            if len(index) and wanted.min() <= 0.0:
-                low = index[wanted <= 0.0]
-                if added in low:
-                    active[added], blocked[added], added = False, True, -1
-                    continue
-                part = force[low] / np.maximum(force[low] - wanted[wanted <= 0.0], 1e-300)
-                force[index] += part.min() * (wanted - force[index])
-                gone = low[part <= part.min()]
-                force[gone], active[gone] = 0.0, False
-                continue
-            force[index] = wanted
-            gap = bare + self.compliance @ np.where(active, force, 0.0)
-            if greatest(gap[index]) > max(MISSED * greatest(bare), self.floor):
-                break
-            wrong = self.rows & ~active & ~blocked & (gap < -self.floor)
-            if not wrong.any():
-                return active
-            added = int(np.argmin(np.where(wrong, gap, np.inf)))
-            active[added] = True
-            blocked[:] = False
-        raise NoConvergence(f"the {len(force)} contact rows have no solution")
+
+        def solve(index: IntArray) -> tuple[Array, Callable[[], Array]]:
+            force = np.zeros(len(bare))
+            force[index] = solve_dense(self.compliance[index][:, index].toarray(), -bare[index])
+            return force[index], lambda: self._reached(bare, bare + self.compliance @ force, index)
+
+        force, _ = one_by_one(self.rows, start, self.floor, solve)
+        return np.asarray(force > 0.0)
+
+    def _reached(self, bare: Array, gap: Array, index: IntArray) -> Array:
+        """Gaps (m,) with forces that close the rows of an index (k,); an error if they miss these."""
+        if greatest(gap[index]) > max(MISSED * greatest(bare), self.floor):
+            raise NoConvergence(f"the {len(gap)} contact rows have no solution")
+        return gap

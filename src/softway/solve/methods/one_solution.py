@@ -14,7 +14,8 @@ from softway.solve.equations.slab_values import Evaluation
 from softway.solve.methods.iteration import FINEST, Guess, Iterate
 
 SAFE = 1e4
-"""Factor by which the operator may amplify what is left of the residual more than the residual itself."""
+"""Factor by which the operator may amplify what is left of the residual more than the residual itself: enough where
+waves cross up to 200 cells in a slab (docs/theory/solver/solver.md, "One solution")."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

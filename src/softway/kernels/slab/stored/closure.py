@@ -17,10 +17,8 @@ from softway.kernels.slab.stored.tables import (
     WORK,
 )
 from softway.kernels.slab.works import LOADED, MOVING, SIZE, SLOPE, STILL, part_works
-from softway.tolerances import AT_REST, SUMS
+from softway.tolerances import AT_REST, DECIDED, SUMS
 
-SURE = 0.5
-"""Part of a limit within which a decision is certain."""
 CLEAR = 0.95
 """Part of a limit within which a scalar is certain, and so is the missing work: both follow from the solution."""
 BOUND = 0.5
@@ -54,10 +52,10 @@ def certain(search):
     for g in range(len(search.balance)):
         it = search.balance[g]
         missing, at_rest = abs(it[MISSING]), AT_REST * it[FLOOR]
-        clear = it[TOUCHED] > 0.0 or not SURE * at_rest <= it[STRAINED] <= at_rest / SURE
-        near = SURE * it[ROUNDING] <= missing <= it[ROUNDING] / SURE
+        clear = it[TOUCHED] > 0.0 or not DECIDED * at_rest <= it[STRAINED] <= at_rest / DECIDED
+        near = DECIDED * it[ROUNDING] <= missing <= it[ROUNDING] / DECIDED
         rough = abs(it[SCALAR]) > CLEAR * limits[ROUGH] and missing > CLEAR * limits[SLIGHT] * it[WORK]
-        sure = sure and (clear or missing <= SURE * it[ROUNDING]) and not near and not rough
+        sure = sure and (clear or missing <= DECIDED * it[ROUNDING]) and not near and not rough
     return sure
 
 

@@ -6,9 +6,11 @@ They are called by their address: a kernel that calls a function contains its co
 from functools import cache
 
 from softway.kernels.fused.elastic import force as fused
-from softway.kernels.jit.by_address import call_with
-from softway.kernels.jit.compilation import Stage, called, task
+from softway.kernels.jit.by_address import WHOLE, caller
+from softway.kernels.jit.compilation import Stage, called, function_at
 from softway.kernels.slab.stored.tables import cells_at, stored_at
+
+_call = caller(WHOLE)
 
 
 @called
@@ -20,7 +22,7 @@ def stored_forces(first, d, solids, u, force, energy):
         for i in range(n):
             for a in range(d):
                 it.u[i, a] = u[(start + i) * d + a]
-        call_with(it.forces, solids[part])
+        _call(it.forces, solids[part])
         for i in range(n):
             for a in range(d):
                 force[(start + i) * d + a] = it.out[i, a]
@@ -30,7 +32,7 @@ def stored_forces(first, d, solids, u, force, energy):
 @cache
 def solid_forces() -> Stage:
     """Function of the address of a solid, that computes its forces and its energy."""
-    return task(_solid_forces)
+    return function_at(WHOLE, _solid_forces)
 
 
 def _solid_forces(place):
@@ -54,3 +56,4 @@ def _solid_forces(place):
     for k in range(len(it.extra)):
         for a in range(d):
             it.out[it.extra[k], a] += it.out[n + k, a]
+    return 1

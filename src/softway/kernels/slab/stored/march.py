@@ -10,7 +10,7 @@ import numpy as np
 from softway.kernels.jit.compilation import merged, uncounted_kernel
 from softway.kernels.slab.audit import audited
 from softway.kernels.slab.march import UNIT, add_impulses, arrive, expect, press, stays
-from softway.kernels.slab.products import extent, greatest, momenta
+from softway.kernels.slab.products import extent, greatest, momenta, spread
 from softway.kernels.slab.stored.closure import certain, close
 from softway.kernels.slab.stored.force import stored_forces
 from softway.kernels.slab.stored.mixing import KEPT, PREVIOUS, mix
@@ -182,6 +182,5 @@ def _corrected(bodies, rows, operator, course, work, turning, h, s):
                 x[bodies.place[c]] = -(work.push[c] + mean) if bodies.heavy[c] else -h * UNIT * (f1[c] - load)
     add_impulses(bodies, rows, operator.active, course.pressure[s + 1], x)
     solve_turned(bodies, operator, turning, x[: len(operator.pivot)])
-    for c in range(len(field)):
-        field[c] = x[bodies.place[c]] if bodies.place[c] >= 0 else 0.0
+    spread(bodies, x, field)
     return press(bodies, rows, operator, course, work, h, s)

@@ -2,8 +2,7 @@
 
 import numpy as np
 
-from softway.kernels.jit.compilation import called, merged, uncounted_kernel
-from softway.kernels.slab.stored.tables import search_at
+from softway.kernels.jit.compilation import called, merged
 from softway.tolerances import INDEPENDENT
 
 KEPT, PREVIOUS = range(2)
@@ -141,9 +140,3 @@ def _rotate(A, V, n, p, q):
         one, two = A[p, k], A[q, k]
         A[p, k] = c * one - s * two
         A[q, k] = s * one + c * two
-
-
-@uncounted_kernel
-def mix_at(place, residual, q, impulse):
-    """:func:`mix` with the ``Search`` at an address, for calls from Python."""
-    mix(search_at(place), residual, q, impulse)

@@ -7,6 +7,7 @@ A was factored.
 import numpy as np
 
 from softway.kernels.jit.compilation import called
+from softway.kernels.slab.products import add_impulse, spread
 from softway.kernels.slab.solution import solve_with
 from softway.kernels.slab.stored.tables import MIXED, NOW, STRAIGHT, TURNED, UNKNOWN
 
@@ -32,15 +33,10 @@ def turn(bodies, rows, operator, turning, u, x):
     if not turning.state[MIXED]:
         return True
     for k in range(len(operator.active)):
-        r, out = operator.active[k], operator.answer[k]
         x[:] = 0.0
-        for e in range(rows.start[r], rows.start[r + 1]):
-            place = bodies.place[rows.component[e]]
-            if place >= 0:
-                x[place] += rows.value[e]
+        add_impulse(bodies, rows, operator.active[k], 1.0, x)
         solve_turned(bodies, operator, turning, x)
-        for c in range(len(out)):
-            out[c] = x[bodies.place[c]] if bodies.place[c] >= 0 else 0.0
+        spread(bodies, x, operator.answer[k])
     return _inverted(rows, operator, turning)
 
 

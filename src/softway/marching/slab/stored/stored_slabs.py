@@ -5,9 +5,9 @@ import numpy as np
 from softway.arrays import Array
 from softway.kernels.slab.stored.march import stored_slabs
 from softway.kernels.slab.stored.tables import BALANCE, DEAR, Search
-from softway.kernels.slab.tables import ITERATIONS, Course
-from softway.marching.slab.compiled_slabs import AHEAD, TOGETHER, new_course, new_work
-from softway.marching.slab.slab_batch import SlabBatch, contractions
+from softway.kernels.slab.tables import Course
+from softway.marching.slab.compiled_slabs import most_slabs, new_course, new_work, told
+from softway.marching.slab.slab_batch import SlabBatch
 from softway.marching.slab.stored.stored_model import StoredModel, Tables
 from softway.marching.state.march_state import MarchState
 from softway.meshes.cell_shapes import FLAT
@@ -15,8 +15,6 @@ from softway.model.scene import State
 from softway.solve.equations.energy_balance import SLIGHT
 from softway.solve.operators.operator_memory import USUAL, WORN, IterationCount, OperatorMemory
 
-NUMBERS = 1_000_000
-"""Greatest number of numbers of the states of a call."""
 MOST = 60
 """Greatest number of iterations of a compiled slab."""
 CLEAR = 1.0 + 1e-9
@@ -34,8 +32,7 @@ def next_stored(
     steady = history.length == history.span == stored.span and not (history.halted or history.energy_along_motion)
     if not (steady and _known(memory, stored.span)) or now.rows is not None:
         return None
-    left = (march_state.settings.until - now.time) / stored.span - AHEAD
-    wanted = int(min(left, TOGETHER, max(1, NUMBERS // (8 * now.start.displacement.size))))
+    wanted = most_slabs(march_state, stored.span)
     if wanted < 1 or _shape(stored, now.start.displacement) <= CLEAR * FLAT:
         return None
     found = _computed(stored, march_state, memory, wanted)
@@ -46,19 +43,8 @@ def next_stored(
     count = int(np.argmax([*(shapes <= CLEAR * FLAT), True]))
     if not count:
         return None
-    iterations = tuple(int(i) for i in course.sums[:count, ITERATIONS].tolist())
-    return SlabBatch(
-        model=model,
-        begun=march_state,
-        memory=memory,
-        course=course,
-        iterations=iterations,
-        contractions=contractions(course.sums[:count], iterations),
-        rows=stored.contact_rows,
-        states={0: before},
-        shapes=shapes[:count],
-        worn=worn and count == computed,
-    )
+    begun, worn = (march_state, before, memory), worn and count == computed
+    return SlabBatch.of(model, course, stored.contact_rows, count, begun, shapes=shapes[:count], worn=worn)
 
 
 def _computed(
@@ -67,7 +53,7 @@ def _computed(
     """Course with up to so many slabs, the number of those computed, and whether the last one has worn the operator;
     None without an operator.
     """
-    now, account = march_state.state, march_state.account
+    now = march_state.state
     assert memory.origin is not None
     mixed = memory.mixed if memory.frozen is None else memory.frozen.basis.place is None
     found = stored.operator(memory.origin, now.pressure > 0.0, mixed)
@@ -77,12 +63,10 @@ def _computed(
     times = np.cumsum([now.time, *(stored.span for _ in range(wanted))])
     course = new_course(stored.model, now, stored.contact_rows, times)
     search = _search(stored, march_state, memory)
-    start = account.energy_start - account.remeshing
-    told = np.array([start, account.work_external, account.energy_error, account.dissipation])
     work = new_work(stored.bodies, stored.rows)
     tables = Tables.of((stored.bodies, stored.rows, operator, course, work, search, turning))
     with factor.limited():
-        computed = int(stored_slabs(tables.places, told, wanted))
+        computed = int(stored_slabs(tables.places, told(march_state.account), wanted))
     return None if factor.failed else (course, computed, bool(search.taken[DEAR]))
 
 
