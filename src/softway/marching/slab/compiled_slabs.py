@@ -23,7 +23,7 @@ from softway.model.model import Model
 from softway.model.scene import State
 from softway.solve.operators.operator_memory import USUAL, WORN, OperatorMemory
 
-NUMBERS = 200_000
+NUMBERS = 1_000_000
 """Greatest number of numbers of the states in a call."""
 SAME = 1e-9
 """Relative difference of the lengths of slabs that have the same operator."""
