@@ -8,7 +8,7 @@ import numpy as np
 from softway.arrays import Array, BoolArray, IntArray
 from softway.kernels.jit.by_address import FLAGS, NUMBERS, ROWS, WHOLES, table
 from softway.kernels.jit.compilation import Stage, called, uncounted_function_at
-from softway.kernels.slab.tables import SLAB, bodies_at, course_at
+from softway.kernels.slab.tables import PART, bodies_at, course_at
 from softway.tolerances import DECIDED
 
 
@@ -65,7 +65,7 @@ def apart() -> Stage:
     """Part that allows slabs in which no surfaces come near each other, and none of those near go away; their table is
     the sixth.
     """
-    return uncounted_function_at(SLAB, _apart)
+    return uncounted_function_at(PART, _apart)
 
 
 def _apart(slab):

@@ -6,7 +6,7 @@ from typing import NamedTuple
 from softway.arrays import Array, IntArray
 from softway.kernels.jit.by_address import BLOCKS, NUMBERS, ROWS, WHOLES, table
 from softway.kernels.jit.compilation import Stage, called, uncounted_function_at
-from softway.kernels.slab.tables import SLAB, bodies_at, rows_at
+from softway.kernels.slab.tables import PART, bodies_at, rows_at
 
 
 class Drives(NamedTuple):
@@ -50,7 +50,7 @@ drives_at = table(
 @cache
 def driven() -> Stage:
     """Part that sets loads, rows and supports of a slab; its table is the seventh."""
-    return uncounted_function_at(SLAB, _driven)
+    return uncounted_function_at(PART, _driven)
 
 
 def _driven(slab):

@@ -7,7 +7,7 @@ from softway.arrays import Array, BoolArray, IntArray
 from softway.kernels.jit.by_address import FLAGS, NUMBERS, ROWS, WHOLE, WHOLES, table
 from softway.kernels.jit.compilation import Stage, called, uncounted_function_at
 from softway.kernels.slab.products import along, greatest
-from softway.kernels.slab.tables import FORCE_T, LOST, SLAB, bodies_at, course_at, operator_at, rows_at, work_at
+from softway.kernels.slab.tables import FORCE_T, LOST, PART, bodies_at, course_at, operator_at, rows_at, work_at
 
 CERTAIN = 1e-6
 """Difference from a limit, relative to it, beyond which a row certainly sticks; of the velocity, one that slips."""
@@ -53,7 +53,7 @@ friction_at = table(
 @cache
 def rubbing() -> Stage:
     """Part that allows a solved slab in which all rows stick or slip as before; its table is the eighth."""
-    return uncounted_function_at(SLAB, _rubbing)
+    return uncounted_function_at(PART, _rubbing)
 
 
 def _rubbing(slab):

@@ -17,7 +17,7 @@ from softway.kernels.slab.tables import (
     ITERATIONS,
     LAST,
     LOST,
-    Slab,
+    PartCall,
     bodies_at,
     call_part,
     course_at,
@@ -71,15 +71,15 @@ def slabs(places, parts, tolerance, account, wanted):
     momenta(bodies, course.v[0], work.before)
     for s in range(wanted):
         if parts[PREPARES] != 0:
-            call_part(parts[PREPARES], Slab(places, s))
+            call_part(parts[PREPARES], PartCall(places, s))
         if not _slab(bodies, rows, operator, course, work, tolerance, s):
             return s
         course.sums[s, LOST] = account[3]
-        if parts[RUBS] != 0 and call_part(parts[RUBS], Slab(places, s)) == 0:
+        if parts[RUBS] != 0 and call_part(parts[RUBS], PartCall(places, s)) == 0:
             return s
         if not audited(bodies, rows, course, work, account, s):
             return s
-        if parts[ALLOWS] != 0 and call_part(parts[ALLOWS], Slab(places, s)) == 0:
+        if parts[ALLOWS] != 0 and call_part(parts[ALLOWS], PartCall(places, s)) == 0:
             return s
         for c in range(len(work.q)):
             work.before[c] = work.after[c]

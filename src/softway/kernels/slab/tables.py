@@ -118,15 +118,15 @@ class Work(NamedTuple):
     works: Array
 
 
-class Slab(NamedTuple):
+class PartCall(NamedTuple):
     """What optional parts of a kernel receive: addresses ``places`` (8,) of its tables, and the number of a slab."""
 
     places: IntArray
     number: int
 
 
-SLAB = Tuple.of(Slab, WHOLES, WHOLE)
-call_part = caller(SLAB)
+PART = Tuple.of(PartCall, WHOLES, WHOLE)
+call_part = caller(PART)
 """Kind of the argument of a part, and the call of the part at an address."""
 
 bodies_at = table(
