@@ -213,6 +213,8 @@ def _newton_iteration(
         rows = pairs.at(u)
         try:
             stiffness, pull = loaded(model, u, dofs, load, glue)
+            if not np.isfinite(stiffness.data).all():
+                raise NoConvergence("a step has turned a cell inside out, or its forces overflow")
             lifted = stiffness if lift is None else stiffness + lift
             step, force, active = newton_step(model, rows, u, dofs, pull, lifted, last, friction, effort)
         except NoConvergence as failure:
