@@ -14,7 +14,11 @@ from softway.bodies.elements.section import Axisymmetric
 HELD = 1e-9
 """Supported part of a rigid motion, relative to the motion, below which supports leave it free."""
 MOST = 0.1
-"""Greatest ``|s^2 - 1|`` of the scalar s; beyond it the difference of energies is booked."""
+"""Greatest ``|s^2 - 1|`` of the scalar s; beyond it the difference of energies is booked.
+
+Upwards also that of the energy of the rest ``s w``, relative to its energy before: what a projection has lost comes
+back.
+"""
 SMALL = 1e-13
 """Energy, relative to that of the body, below which the rest of the motion is rounding."""
 
@@ -76,6 +80,7 @@ def balanced(
     kinetic: float,
     most: float = MOST,
     closed: ClosedRows | None = None,
+    before: float = 0.0,
 ) -> tuple[Array, float]:
     """Velocity (n, d) with given momenta of the free rigid motions and, where a scalar allows it, kinetic energy.
 
@@ -98,6 +103,8 @@ def balanced(
         Greatest ``|s^2 - 1|`` of the scalar s.
     closed
         Contact rows with given normal velocities, of nodes with inertia; None without.
+    before
+        Kinetic energy of the rest w before a projection [J].
 
     Returns
     -------
@@ -110,10 +117,31 @@ def balanced(
     for _ in range(2):  # a second time removes the rounding of the first
         rest = rest - conditions.change(conditions.of(rest))
         base = base + conditions.change(wanted - conditions.of(base + rest))
-    return base + (scalar := _scalar(after, base, rest, kinetic, most)) * rest, scalar
+    return base + (scalar := _scalar(after, base, rest, kinetic, most, before)) * rest, scalar
 
 
-def _scalar(after: MassiveSolid, base: Array, rest: Array, kinetic: float, most: float) -> float:
+def rest_energy(solid: MassiveSolid, motions: Array, velocity: Array) -> float:
+    """Kinetic energy [J] of a velocity (n, d) beside its part on supports and the free rigid motions (n d, m).
+
+    Examples
+    --------
+    Of two unit masses on a line one moves with 2 m/s: both with 1 m/s, and each with 1 m/s against that.
+
+    >>> import scipy.sparse as sp
+    >>> from types import SimpleNamespace
+    >>> from softway.bodies.dof_map import NodalDofs
+    >>> mass = sp.csr_array(sp.eye_array(2))
+    >>> kinetic = lambda v: 0.5 * float((v * (mass @ v)).sum())
+    >>> pair = SimpleNamespace(dofs=NodalDofs(np.ones((2, 1), bool)), mass=mass, kinetic=kinetic)
+    >>> round(rest_energy(pair, np.ones((2, 1)), np.array([[2.0], [0.0]])), 12)
+    1.0
+    """
+    rest = velocity - solid.dofs.supported(velocity)
+    conditions = conditions_of(solid, motions)
+    return solid.kinetic(rest - conditions.change(conditions.of(rest)))
+
+
+def _scalar(after: MassiveSolid, base: Array, rest: Array, kinetic: float, most: float, before: float) -> float:
     """Scalar s near one with ``T(base + s rest) = kinetic``; one if there is none."""
     quadratic, constant = after.kinetic(rest), after.kinetic(base) - kinetic
     half = 0.5 * float((base * (after.mass @ rest)).sum())
@@ -121,4 +149,5 @@ def _scalar(after: MassiveSolid, base: Array, rest: Array, kinetic: float, most:
     if quadratic <= SMALL * max(abs(kinetic), after.kinetic(base)) or root < 0.0:
         return 1.0
     found = (-half + float(np.sqrt(root))) / quadratic
-    return found if abs(found**2 - 1.0) <= most else 1.0
+    near = 1.0 - most <= found**2 <= (1.0 + most) * max(1.0, before / quadratic)
+    return found if near and found > 0.0 else 1.0

@@ -28,7 +28,7 @@ from softway.meshes.topology import require_none
 from softway.model.cohesive_ties import CohesiveTies, intact
 from softway.model.field import FieldEquations, HangingField
 from softway.model.initial_displacement import at_start, given_fields
-from softway.model.known_solids import known_inertias, known_parts
+from softway.model.known_solids import kept_slaves, known_inertias, known_parts
 from softway.model.layout import Layout, laid_out, solids_of
 from softway.model.model import Model
 from softway.model.rigid.rigid_bodies import RigidBodies, rigid_bodies
@@ -86,7 +86,7 @@ def _model(scene: Scene, before: Model | None) -> Model:
     """Model of a scene whose contacts name all their members."""
     timing, factor, (rigid, motions) = _timing(scene), scene.inertia.factor, _rigid(scene)
     tools, massless = _tools(scene, rigid, motions), timing.massless and factor > 0.0
-    laid = laid_out(scene, motions, tools, massless, known_parts(before))
+    laid = laid_out(scene, motions, tools, massless, known_parts(before), kept_slaves(before))
     scene, solids, parts, glue, met = laid.scene, laid.solids, laid.parts, laid.glue, laid.met
     given, velocity = given_fields(parts, solids)
     dofs, driven = glue.dofs(joined([p.dofs for p in parts])), driven_components(parts, solids, given, motions)

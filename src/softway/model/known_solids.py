@@ -24,6 +24,17 @@ def known_parts(model: Model | None) -> Known:
     }
 
 
+def kept_slaves(model: Model | None) -> Mapping[int, str]:
+    """Solids whose surfaces are the slaves in the contacts of a model whose meshes are replaced, by the number of the
+    contact: the present shape of a new mesh may make the other surface the finer one, with gaps of other rows.
+    """
+    if model is None or not model.remeshed:
+        return {}
+    numbers, first = np.unique(model.contacts.contact, return_index=True)
+    names = [part.name for part in model.parts]
+    return {int(k): names[model.part_of[model.contacts.node[row]]] for k, row in zip(numbers, first, strict=True)}
+
+
 def known_inertias(model: Model | None, scene: Scene, parts: Sequence[DiscreteSolid]) -> Mapping[str, KnownInertia]:
     """Inertia of the ``parts`` of a scene that have the arrays of a model; none with other impact rules, scaled masses
     or rigid bodies, which carry massless nodes.

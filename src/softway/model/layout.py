@@ -66,24 +66,26 @@ def laid_out(
     tools: Mapping[str, Tool | RigidShape],
     massless: bool,
     known: Known,
+    slaves: Mapping[int, str],
 ) -> Layout:
     """Lay out a scene; if contact nodes are ``massless``, walls one cell thick that may touch are divided.
 
-    The very same solids that are ``known`` keep their arrays.
+    The very same solids that are ``known`` keep their arrays, and ``slaves`` are solids that are those of contacts, by
+    the number of the contact.
 
     Raises
     ------
     InputError
         If the scene has no solid, bodies do not fit, or a tag, tie or contact is wrong.
     """
-    found = _laid_out(scene, motions, tools, known)
+    found = _laid_out(scene, motions, tools, known, slaves)
     if not massless:
         return found
     divided = {part.name: layered(part, found.solids[part.name], found.met.nodes) for part in found.parts}
     if not any(divided.values()):
         return found
     bodies = {**found.scene.bodies, **{name: one.solid for name, one in divided.items() if one is not None}}
-    again = _laid_out(replace(found.scene, bodies=bodies), motions, tools, known)
+    again = _laid_out(replace(found.scene, bodies=bodies), motions, tools, known, slaves)
     return replace(again, walls=_walls(again.parts, divided))
 
 
@@ -94,7 +96,11 @@ def _walls(parts: Sequence[DiscreteSolid], divided: Mapping[str, Layered | None]
 
 
 def _laid_out(
-    scene: Scene, motions: Mapping[str, RigidMotion], tools: Mapping[str, Tool | RigidShape], known: Known
+    scene: Scene,
+    motions: Mapping[str, RigidMotion],
+    tools: Mapping[str, Tool | RigidShape],
+    known: Known,
+    slaves: Mapping[int, str],
 ) -> Layout:
     """Solids, ties and contacts of a scene as it is."""
     solids = solids_of(scene)
@@ -110,7 +116,7 @@ def _laid_out(
     scene, solids, parts = _closed(scene, solids, parts, glue.closing(points, breaking))
     bonds = cohesive_ties(breaking, parts, np.concatenate([p.mesh.points for p in parts]))
     space = LocalSpace(tuple(p.nodes for p in parts))
-    met = assemble_contacts(scene.contacts, {**solids, **tools}, parts, space, glue.joined)
+    met = assemble_contacts(scene.contacts, {**solids, **tools}, parts, space, glue.joined, slaves)
     return Layout(scene=scene, solids=solids, parts=parts, glue=glue, bonds=bonds, met=met, walls=np.zeros(0, int))
 
 

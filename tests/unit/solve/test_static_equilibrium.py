@@ -1,6 +1,7 @@
 """Static equilibrium with unilateral contact."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from softway.bodies.solid import Fixed, Solid
 from softway.contact.impact_rule import Impulse
 from softway.errors import NumericsError
 from softway.laws.bulk import NeoHookean, StVenantKirchhoff
-from softway.meshes.generators.shapes import rectangle
+from softway.meshes.generators.shapes import interval, rectangle
 from softway.model.build import build
 from softway.model.model import Model
 from softway.model.scene import Scene
@@ -108,3 +109,26 @@ def test_proximal_steps_leave_an_unstable_shape(bar: Callable[..., Model], stret
     crushed = (stretch - 1.0) * model.parts[0].mesh.points
     rest = proximal_equilibrium(model, crushed, model.dofs, np.zeros_like(crushed))
     assert rest.displacement == pytest.approx(0.0, abs=1e-13)
+
+
+def test_proximal_steps_part_surfaces_and_stay_where_contact_holds(bar: Callable[..., Model]) -> None:
+    """A bar that a wall crushes to half pushes with (r - r^3) / 2 = 3/16; its tangent there, (3 r^2 - 1) / 2, is
+    negative, and the wall holds it.
+    """
+    model = bar(1, wall=0.5, held="left", material=StVenantKirchhoff(E=1.0, nu=0.0))
+    rest = proximal_equilibrium(model, model.displacement, model.dofs, np.zeros(model.shape))
+    assert rest.displacement.ravel() == pytest.approx([0.0, -0.5], abs=1e-13)
+    assert rest.pressure == pytest.approx([3.0 / 16.0], rel=1e-11)
+
+
+def test_no_proximal_step_turns_a_cell_inside_out(bar: Callable[..., Model]) -> None:
+    """The first step of Newton's method is five lengths of the small cell, the bound of a step two."""
+    mesh = interval(1.0, 2)
+    mesh = replace(mesh, points=np.array([[0.0], [0.01], [1.0]]))
+    model = bar(mesh=mesh, held="left", material=NeoHookean(E=1.0, nu=0.0))
+    load = np.array([[0.0], [-5.0], [0.0]])
+    rest = proximal_equilibrium(model, model.displacement, model.dofs, load)
+    assert (model.force(rest.displacement) - load)[1:] == pytest.approx(0.0, abs=1e-11)
+    assert -0.01 < rest.displacement[1, 0] < -0.008
+    with pytest.raises(NumericsError, match="inside out"):
+        equilibrium(model, model.displacement, model.dofs, load)

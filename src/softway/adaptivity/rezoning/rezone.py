@@ -14,8 +14,10 @@ from softway.meshes.cells import CELLS, linear
 from softway.meshes.element import tabulate
 from softway.meshes.mesh import Mesh
 
-OnTools = Callable[[Array, BoolArray], Array]
-"""Places (n, d) of the nodes of a solid with those in tools, and those (n,) in contact, on the tools."""
+OnTools = Callable[[Array, BoolArray], tuple[Array, BoolArray]]
+"""Places (n, d) of the nodes of a solid with those in tools, and those (n,) in contact, on the tools, and out of other
+solids, which have pushed some nodes (n,).
+"""
 
 
 def rezoned(
@@ -59,8 +61,9 @@ def rezoned(
             held = anchors(base, rim, places, closed, tags)
             new[rim], closed[rim] = slid(base.points, rim, places, held, closed)
         new[kept] = places[kept]
-        new = on_tools(new, closed)
-        free = part.dofs.free & (np.isin(np.arange(len(places)), boundary) & ~closed & ~kept)[:, None]
+        new, pushed = on_tools(new, closed)
+        stays = closed | kept | pushed
+        free = part.dofs.free & (np.isin(np.arange(len(places)), boundary) & ~stays)[:, None]
         new = with_volume(mesh.blocks, mesh.boundary(), section, new, wanted, free)
     bent = distortion(mesh.blocks, ideal_places(base.points, places))
     found = moved(bent, places, boundary, new[boundary])

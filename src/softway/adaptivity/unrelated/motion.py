@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 import scipy.sparse as sp
 
-from softway.adaptivity.balances import balanced, rigid_motions_of
+from softway.adaptivity.balances import balanced, rest_energy, rigid_motions_of
 from softway.adaptivity.unrelated.fields import projected
 from softway.arrays import Array
 from softway.bodies.discretised import DiscreteSolid
@@ -80,4 +80,5 @@ def balanced_on(
         return found
     rigid = rigid_motions_of(before, after, (before.points + displacement, after.points))
     momenta = rigid.before.T @ (before.mass @ old).ravel()
-    return after.following(balanced(after, rigid.after, after.following(found), momenta, kinetic, MOST)[0])
+    rest = rest_energy(before, rigid.before, old)
+    return after.following(balanced(after, rigid.after, after.following(found), momenta, kinetic, MOST, before=rest)[0])

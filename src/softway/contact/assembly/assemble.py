@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from types import MappingProxyType
 
 import numpy as np
 import scipy.sparse as sp
@@ -11,7 +12,7 @@ from softway.bodies.assembled.vector_space import VectorSpace
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.rigid_motion import RigidShape
 from softway.bodies.solid import Solid, Tool
-from softway.contact.assembly.body_surface import BodySurface, body_surface, covered, part_named
+from softway.contact.assembly.body_surface import BodySurface, body_surface, covered, finer_first, part_named
 from softway.contact.assembly.each_with_each import Nodes, each_with_each
 from softway.contact.assembly.friction import assemble_friction
 from softway.contact.assembly.methods import ContactMethods, of_two, with_tool
@@ -76,9 +77,13 @@ def assemble_contacts(
     parts: Sequence[DiscreteSolid],
     space: VectorSpace,
     joined: Joined | None = None,
+    slaves: Mapping[int, str] = MappingProxyType({}),
 ) -> ContactAssembly:
     """Assemble the contact methods and friction laws of contacts, see
     :func:`~softway.contact.assembly.declared.resolved`.
+
+    ``slaves`` are the solids whose surfaces are the slaves of some contacts, by number; those of the others are the
+    finer ones.
 
     Raises
     ------
@@ -86,12 +91,12 @@ def assemble_contacts(
         If a body is unknown, a tag contains no facet, or a name is given twice; the place begins with ``contacts[k]``.
     """
     points = np.concatenate([p.mesh.points for p in parts])
-    given = _Given(contacts=contacts, bodies=bodies, parts=parts, points=points, joined=joined)
+    given = _Given(contacts=contacts, bodies=bodies, parts=parts, points=points, joined=joined, slaves=slaves)
     thickness, found = _thickness(given), []
     for k, contact in enumerate(contacts):
         _check_shape(contact, bodies, points)
         with within(f"contacts[{k}]"):
-            found.append(_methods(contact, given, thickness))
+            found.append(_methods(k, contact, given, thickness))
     number = [np.full(f.rows, k) for k, f in enumerate(found)]
     methods = tuple(method for f in found for method in f.methods)
     row_contact = np.concatenate([np.zeros(0, int), *number])
@@ -127,6 +132,7 @@ class _Given:
     parts: Sequence[DiscreteSolid]
     points: Array
     joined: Joined | None
+    slaves: Mapping[int, str]
 
     def tool(self, contact: Contact) -> Tool | RigidShape | None:
         """Tool or rigid body of a contact."""
@@ -151,8 +157,8 @@ class _Given:
         return np.setdiff1d(np.concatenate(inside), np.concatenate(outside))
 
 
-def _methods(contact: Contact, given: _Given, thickness: Array) -> ContactMethods:
-    """Methods of one contact."""
+def _methods(number: int, contact: Contact, given: _Given, thickness: Array) -> ContactMethods:
+    """Methods of the contact of a number."""
     tool = given.tool(contact)
     if tool is not None:
         part = given.parts[part_named(given.parts, contact.body, "between")]
@@ -160,12 +166,22 @@ def _methods(contact: Contact, given: _Given, thickness: Array) -> ContactMethod
     surfaces = given.surfaces(contact)
     if not contact.many:
         _require_apart(contact, surfaces, given.joined)
-        return of_two(contact, surfaces[0], surfaces[1], thickness, given.points)
+        return of_two(contact, *_slave_first(contact, surfaces, given.slaves.get(number)), thickness, given.points)
     own = [given.surfaces(c) for c in given.contacts if not c.many and given.tool(c) is None]
     body = np.repeat(np.arange(len(given.parts)), [p.mesh.n_nodes for p in given.parts])
     glue = None if given.joined is None else given.joined.neighbours
     nodes = Nodes(points=given.points, body=body, thickness=thickness, glue=glue)
     return each_with_each(contact, surfaces, own, nodes)
+
+
+def _slave_first(
+    contact: Contact, surfaces: Sequence[BodySurface], slave: str | None
+) -> tuple[BodySurface, BodySurface]:
+    """The slave of two surfaces, which is that of the solid ``slave`` or else the finer one, and the other one."""
+    one, two = surfaces
+    if slave is None or len(set(contact.bodies)) == 1:
+        return finer_first(one, two)
+    return (one, two) if contact.bodies[0] == slave else (two, one)
 
 
 def _require_apart(contact: Contact, surfaces: Sequence[BodySurface], joined: Joined | None) -> None:

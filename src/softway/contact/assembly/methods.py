@@ -9,7 +9,7 @@ from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.rigid_motion import RigidShape
 from softway.bodies.solid import Tool
-from softway.contact.assembly.body_surface import BodySurface, finer_first
+from softway.contact.assembly.body_surface import BodySurface
 from softway.contact.contact import Contact, DualMortar, NodeToSurface
 from softway.contact.mortar.mortar import Mortar
 from softway.contact.node_to_surface.edge_to_edge import EdgeToEdge
@@ -70,12 +70,11 @@ def _outer(mesh: Mesh, nodes: IntArray) -> IntArray:
     return found if len(found) else nodes
 
 
-def of_two(contact: Contact, one: BodySurface, other: BodySurface, thickness: Array, points: Array) -> ContactMethods:
-    """Contact of two solids: the finer surface is the slave; sharp corners and edges have their own rows.
+def of_two(contact: Contact, fine: BodySurface, coarse: BodySurface, thickness: Array, points: Array) -> ContactMethods:
+    """Contact of two solids: ``fine`` is the slave; sharp corners and edges have their own rows.
 
     ``thickness`` (n,) is that of the bodies behind the nodes, ``points`` (n, d) are the reference positions [m].
     """
-    fine, coarse = finer_first(one, other)
     located, dim = not contact.timing.massless, fine.side.dim
     method = contact.method or (NodeToSurface() if dim == 1 or located else DualMortar())
     found: list[SurfacePair]
@@ -90,7 +89,7 @@ def of_two(contact: Contact, one: BodySurface, other: BodySurface, thickness: Ar
         problem = f"DualMortar with {contact.timing}" if located else "DualMortar between bars in 1D"
         raise InputError("method", problem, "NodeToSurface, or nothing")
     else:
-        _require_no_common_node(contact, one, other)
+        _require_no_common_node(contact, fine, coarse)
         sides = fine.side.facets, coarse.side.facets
         mortar = Mortar(slave_facets=sides[0], master_facets=sides[1], thickness=thickness, points=points)
         raised, found = mortar.greatest_height, [mortar]
@@ -99,7 +98,7 @@ def of_two(contact: Contact, one: BodySurface, other: BodySurface, thickness: Ar
     found = [m for m in found if len(m.node)]
     if fine.edges is not None and coarse.edges is not None and len(fine.edges.ends) and len(coarse.edges.ends):
         found.append(EdgeToEdge(first=fine.edges, second=coarse.edges))
-    nodes = np.concatenate([one.side.nodes, other.side.nodes])
+    nodes = np.concatenate([fine.side.nodes, coarse.side.nodes])
     edges, margin = (fine.edge, coarse.edge), margin_of(contact, (fine, coarse), ~np.eye(2, dtype=bool), raised)
     return ContactMethods(methods=tuple(found), nodes=nodes, edges=edges, overlap=overlap, margin=margin)
 

@@ -32,8 +32,12 @@ BEGIN = 0.02
 """Greatest length of a step, relative to the extent of the scene."""
 SHORTER = 0.5
 """Ratio of the greatest lengths of steps after one that turned back."""
+DEPTHS = 2.0
+"""Length of a step that is allowed in any case, in depths of the rows that overlap."""
 EXACT = 1e-13
 """Step, relative to the extent of the scene, that ends the search."""
+QUIET = 3
+"""Number of such steps with a lift: contacts hold what the stiffness alone does not."""
 
 
 def proximal_equilibrium(
@@ -43,8 +47,9 @@ def proximal_equilibrium(
     diagonal, about the last iterate.
 
     The lift bounds the length of a step, and makes the stiffness positive definite, so that steps lead downhill.  The
-    bound falls where a step turns back, as where a plastic tangent is nearly singular, and rises again otherwise.  The
-    last step has no lift: the equilibrium is that of the forces, and stable.
+    bound falls where a step turns back, as where a plastic tangent is nearly singular, and rises again otherwise.  A
+    step may always part surfaces that overlap, and none turns a cell inside out.  The last steps are rounding: the
+    equilibrium is that of the forces, and stable with its contacts.
 
     Parameters
     ----------
@@ -68,50 +73,79 @@ def proximal_equilibrium(
     """
     pairs, most = model.contacts.rest(u, time), BEGIN * model.extent(u)
     least = max(EXACT * model.extent(u), rounded(model.space.greatest(model.points)))
-    lift, last, sums, before, longest = 0.0, None, None, np.zeros(dofs.size), most
+    at = _At.of(model, u, dofs, load, glue)
+    sums = np.asarray(abs(at.stiffness).sum(axis=0)).ravel()
+    lift, last, before, longest, quiet = 0.0, None, np.zeros(dofs.size), most, 0
     for count in range(STEPS):
-        pairs = pairs.with_kept_facets(u) if count == KEEP_AFTER and pairs.fixed_rows is None else pairs
-        rows, (stiffness, pull) = pairs.at(u), loaded(model, u, dofs, load, glue)
-        sums = np.asarray(abs(stiffness).sum(axis=0)).ravel() if sums is None else sums
-        free = _Step(model=model, rows=rows, u=u, dofs=dofs, load=pull, stiffness=stiffness, last=last)
+        pairs = pairs.with_kept_facets(at.u) if count == KEEP_AFTER and pairs.fixed_rows is None else pairs
+        free = _Step(model=model, rows=pairs.at(at.u), at=at, dofs=dofs, last=last)
         lift = 0.25 * lift if lift > LEAST else 0.0
-        found = free.lifted(lift * sums)
-        while found is None or model.space.greatest(found[0]) > max(longest, least):
+        allowed = max(longest, least, DEPTHS * free.depth)
+        while (found := free.lifted(lift * sums, allowed)) is None:
             lift = max(2.0 * lift, LEAST)
             if lift > MOST:
                 raise NumericsError("no static equilibrium by proximal steps", time, REMEDY)
-            found = free.lifted(lift * sums)
-        step, force, active = found
-        u, last = u + dofs.nodes(step), (force, active)
-        if model.space.greatest(step) <= least and lift == 0.0:
-            return static_state(u, rows, force, active)
+        (step, force, active), at = found
+        last = force, active
+        quiet = quiet + 1 if model.space.greatest(step) <= least else 0
+        if quiet >= (QUIET if lift > 0.0 else 1):
+            return static_state(at.u, free.rows, force, active)
         longest = SHORTER * longest if model.space.dot(step, before) < 0.0 else min(longest / SHORTER, most)
         before = step
     raise NumericsError(f"no static equilibrium by {STEPS} proximal steps", time, REMEDY)
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _At:
+    """Stiffness (k, k) on the unknowns at a displacement u (n, d), and load (n, d) without what ``glue`` holds there,
+    of the ``given`` load (n, d).
+    """
+
+    u: Array
+    stiffness: sp.csc_array
+    load: Array
+    given: Array
+    glue: tuple[CohesiveTies, ...]
+
+    @classmethod
+    def of(cls, model: Model, u: Array, dofs: DofMap, given: Array, glue: tuple[CohesiveTies, ...]) -> "_At":
+        """These at a displacement."""
+        stiffness, load = loaded(model, u, dofs, given, glue)
+        return cls(u=u, stiffness=stiffness, load=load, given=given, glue=glue)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class _Step:
-    """Step of Newton's method to come, from a displacement u (n, d), forces and active rows."""
+    """Step of Newton's method to come, from forces and active rows."""
 
     model: Model
     rows: ContactRows
-    u: Array
+    at: _At
     dofs: DofMap
-    load: Array
-    stiffness: sp.csc_array
     last: tuple[Array, BoolArray] | None
 
-    def lifted(self, lift: Array) -> tuple[Array, Array, BoolArray] | None:
-        """Step with a lift (k,) of the diagonal, forces and active rows; None if there is none, or the stiffness with
-        the lift is not positive definite.
+    @property
+    def depth(self) -> float:
+        """Greatest depth by which surfaces overlap where unknowns can part them [m]."""
+        gap = self.rows.gap(self.at.u)[self.rows.reachable(self.dofs)]
+        return float(np.maximum(-gap, 0.0).max(initial=0.0))
+
+    def lifted(self, lift: Array, longest: float) -> tuple[tuple[Array, Array, BoolArray], _At] | None:
+        """Step with a lift (k,) of the diagonal, forces and active rows, and where it leads.
+
+        None if there is none, if the stiffness with the lift is not positive definite, and if the step is longer than
+        ``longest`` [m] or turns a cell inside out.
         """
-        stiffness = self.stiffness + sp.csc_array(sp.diags_array(lift)) if lift.any() else self.stiffness
-        given = (self.model, self.rows, self.u, self.dofs, self.load, stiffness)
+        at = self.at
+        stiffness = at.stiffness + sp.csc_array(sp.diags_array(lift)) if lift.any() else at.stiffness
+        given = (self.model, self.rows, at.u, self.dofs, at.load, stiffness)
         try:
             if SuperLU().factor(stiffness).indefinite:
                 return None
             found = newton_step(*given, self.last, NoInitialSlip(), Effort())
         except NoConvergence:
             return None
-        return found if np.isfinite(self.model.space.greatest(found[0])) else None
+        if not self.model.space.greatest(found[0]) <= longest:
+            return None
+        there = _At.of(self.model, at.u + self.dofs.nodes(found[0]), self.dofs, at.given, at.glue)
+        return (found, there) if np.isfinite(there.stiffness.data).all() else None

@@ -260,16 +260,16 @@ def newton_step(
     effort: Effort,
 ) -> tuple[Array, Array, BoolArray]:
     """One step of Newton's method on the unknowns, the contact forces, and the active rows."""
-    extent = model.extent(u)
-    slipping = friction.conditions(model, rows, u, extent)
+    if not np.isfinite(stiffness.data).all():
+        raise NoConvergence("a step has turned a cell inside out, or its forces overflow")
+    slipping = friction.conditions(model, rows, u, model.extent(u))
     rows = rows.without_friction() if slipping.frictionless else rows
     directions = row_basis(rows, dofs, model.contacts.fixed, model.touchable)
     reachable = rows.reachable(dofs)
     target = np.where(reachable, -rows.gap(u), 0.0)
     effort.factor(dofs.size, factor_operations(model))
     frozen = frozen_operator(stiffness, directions, SuperLU())
-    coefficients = frozen.coefficients(rows, dofs)
-    m = len(target)
+    coefficients, m = frozen.coefficients(rows, dofs), len(target)
     if last is None:
         last = _open(m, slipping)
     force, active = last

@@ -27,12 +27,8 @@ from softway.meshes.remeshed.remeshed_mesh import RemeshedMesh, remeshed_mesh
 from softway.model.model import Model
 from softway.model.scene import Scene
 
-PASSES = 5
-"""Greatest number of corrections of nodes on tools."""
 ON_AXIS = 1e-12
 """Radius, relative to the size of the solid, within which a node is on the axis."""
-ON_TOOL = 1e-14
-"""Gap, relative to the size of the solid, at which a node is on its tool."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -187,27 +183,6 @@ class FormedScene:
             mask[chosen] = True
             masks.append(mask[part.nodes])
         return masks[0], masks[1]
-
-
-def on_tools(model: Model, u: Array, time: float, name: str, closed: BoolArray, places: Array) -> Array:
-    """Places (n, d) of the nodes of a solid, out of the tools, with those in contact on them; with displacements u of
-    all solids.
-    """
-    part, u = next(p for p in model.parts if p.name == name), np.array(u)
-    mine, free = part.nodes, part.dofs.free
-    for _ in range(PASSES):
-        u[mine] = places - part.mesh.points
-        rows = model.rows(u, time)
-        gap = rows.gap(u)
-        some = rows.near & (rows.node >= mine.start) & (rows.node < mine.stop)
-        node = np.clip(rows.node - mine.start, 0, len(places) - 1)
-        some &= closed[node] | (gap < 0.0)
-        some &= np.abs(gap) > ON_TOOL * np.ptp(places)
-        if not some.any():
-            break
-        places = np.array(places)
-        places[node[some]] -= np.where(free[node[some]], gap[some, None] * rows.normal[some], 0.0)
-    return places
 
 
 def formed_scene(model: Model) -> FormedScene:

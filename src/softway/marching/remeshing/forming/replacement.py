@@ -16,8 +16,9 @@ from softway.adaptivity.rezoning.volume import volume_of, with_volume
 from softway.adaptivity.unrelated.fields import simplices
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.solid import Solid
+from softway.marching.remeshing.forming.fitting import fitted_places
 from softway.marching.remeshing.forming.formable import makes_cells
-from softway.marching.remeshing.forming.formed_scene import FormedScene, Replacement, on_tools
+from softway.marching.remeshing.forming.formed_scene import FormedScene, Replacement
 from softway.marching.state.march_state import MarchState
 from softway.meshes.mesh import Mesh
 from softway.meshes.remeshed.remesh import Quality, Remesh
@@ -60,8 +61,9 @@ def _rezoned(on: FormedScene, how: Remesh, now: MarchState, name: str) -> Replac
     part, mesh = on.part(name), on.meshes[name]
     tags = tuple(support.on for support in _solid(on, name).supports)
 
-    def put(places: Array, touching: BoolArray) -> Array:
-        return on_tools(on.model, now.state.start.displacement, now.state.time, name, touching & ~kept, places)
+    def put(places: Array, touching: BoolArray) -> tuple[Array, BoolArray]:
+        u, time = now.state.start.displacement, now.state.time
+        return fitted_places(on.model, u, time, name, touching & ~kept, kept, places)
 
     found = rezoned(part, mesh.ideal, on.places(now, name), closed, kept, put, tags)
     moved = None if found is None else moved_mesh(part.mesh, found)
@@ -96,9 +98,9 @@ def _on_boundary(on: FormedScene, trial: Model, now: MarchState, name: str, new:
     """The mesh of a model with its boundary on the tools, and the volume that the solid has; None if a cell folds."""
     part, others = next(p for p in trial.parts if p.name == name), now.state.start.displacement
     u = trial.join({**on.model.split(others), name: np.zeros_like(new.mesh.points)})
-    points = on_tools(trial, u, now.state.time, name, new.touching, new.mesh.points)
+    points, pushed = fitted_places(trial, u, now.state.time, name, new.touching, new.kept, new.mesh.points)
     surface = np.isin(np.arange(new.mesh.n_nodes), new.mesh.nodes("surface"))
-    free = part.dofs.free & (surface & ~new.touching & ~new.kept)[:, None]
+    free = part.dofs.free & (surface & ~new.touching & ~new.kept & ~pushed)[:, None]
     section = part.internal.section
     wanted = volume_of(on.part(name).mesh.blocks, section, on.places(now, name))
     return new.with_boundary(with_volume(new.mesh.blocks, new.mesh.boundary(), section, points, wanted, free))

@@ -39,6 +39,24 @@ def test_new_meshes_take_no_energy() -> None:
     assert max(abs(one.ledger.energy_error) for one in steps) < 1e-8 * ENERGY
 
 
+@pytest.mark.slow
+def test_the_energy_of_waves_that_a_projection_loses_comes_back() -> None:
+    """A disc hits the floor at an angle; half of the energy of its motion beside the rigid one is in waves that the
+    projection on its first new mesh loses: 14 J, 9 % of all, were booked.
+    """
+    law = sw.J2(E=4.56154e8, nu=0.3, yield_stress=3.19491e6)
+    mesh = sw.meshes.Disc(radius=0.0022366, cells=6, cell="tri6")
+    place = sw.bodies.Placement(rotations=(sw.bodies.Rotation(angle=140.324),), bottom=3.49384e-6)
+    velocity = sw.bodies.Uniform(value=(-19.6536, -46.2658))
+    disc = sw.Solid(mesh=mesh, material=law, density=8337.63, velocity=velocity, place=place, remesh="auto")
+    floor = sw.Tool(shape=sw.obstacles.HalfSpace(point=(0.0, 0.0), normal=(0.0, 1.0)))
+    contact = sw.Contact(between=("disc", "floor"), friction=sw.laws.Coulomb(mu=0.53))
+    scene = sw.Scene(bodies={"disc": disc, "floor": floor}, contacts=(contact,))
+    steps = sw.march(scene, until=8.72592e-5, step=2.0776e-6)
+    changed = next(step for step in steps if step.exchanges)
+    assert abs(changed.ledger.remeshing) < 1e-12 * changed.ledger.energy_kinetic
+
+
 def test_stress_does_not_relax_in_a_change_of_meshes() -> None:
     """Massless nodes find their equilibrium at once: what the material dissipates is far below what a slab does."""
     steps = list(sw.march(thrown(FAST, None), until=8 * STEP, step=STEP, method=taylor.METHOD))
