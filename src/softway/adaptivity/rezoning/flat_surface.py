@@ -67,9 +67,7 @@ def _facets_of_corners(sheets: Sequence[Mapping[str, IntArray]]) -> dict[int, li
     return dict(sorted(found.items()))
 
 
-def _way(
-    node: int, facets: list[tuple[IntArray, int]], places: Array, tags: BoolArray, near: float
-) -> Array | None:
+def _way(node: int, facets: list[tuple[IntArray, int]], places: Array, tags: BoolArray, near: float) -> Array | None:
     """Projection (3, 3) onto the directions in which a node slides; None if it stays."""
     planes: list[tuple[Array, BoolArray]] = []
     for facet, corners in facets:

@@ -81,9 +81,10 @@ def control_volumes(blocks: Mapping[str, IntArray], places: Array, points: Mappi
 
     A quadrilateral with k times k points has the images of k times k rectangles whose areas are the weights, a triangle
     with three points those of the three parts that the lines from its centre to the middles of its sides cut off, a
-    hexahedron with eight points its eighths, one with 27 points the images of 27 boxes; other cells are one control volume, with the mean of their points.  An
-    eighth is six tetrahedra between a corner, middles of edges and of faces, and the centre of the cell: those of cells
-    with a face in common fit together, and fill the volume of the trilinear cells.
+    hexahedron with eight points its eighths, one with 27 points the images of 27 boxes; other cells are one control
+    volume, with the mean of their points.  An eighth is six tetrahedra between a corner, middles of edges and of faces,
+    and the centre of the cell; a box is 24 between an edge, the middle of a face and the centre.  Those of cells with a
+    face in common fit together, and fill the volume of the trilinear cells.
 
     Parameters
     ----------
