@@ -7,7 +7,7 @@ import numpy as np
 from softway.adaptivity.rezoning.flat_surface import sliding
 from softway.adaptivity.rezoning.rim import anchors, rims, slid
 from softway.adaptivity.rezoning.smoothing import distortion, ideal_places, moved, slid_along
-from softway.adaptivity.rezoning.volume import volume_of, with_volume, with_volumes
+from softway.adaptivity.rezoning.volume import Sheet, volume_of, with_volume, with_volumes
 from softway.adaptivity.rezoning.zones import Zones, along, lines, zones_of
 from softway.arrays import Array, BoolArray, IntArray
 from softway.bodies.discretised import DiscreteSolid
@@ -95,10 +95,10 @@ def _on_curves(
         wanted = volume_of(mesh.blocks, section, places)
         return with_volume(mesh.blocks, mesh.boundary(), section, new, wanted, free)
     inner = np.isin(np.arange(len(places)), zones.nodes) & ~zones.joints
-    sheets = [(outer_facets(blocks), free) for blocks in zones.blocks]
+    sheets: list[Sheet] = [(outer_facets(blocks), free) for blocks in zones.blocks]
     sheets += [(common, part.dofs.free & inner[:, None]) for common in zones.common]
-    wanted = np.array([volume_of(blocks, section, places) for blocks in zones.blocks])
-    return with_volumes(zones.blocks, sheets, section, new, wanted)
+    volumes = np.array([volume_of(blocks, section, places) for blocks in zones.blocks])
+    return with_volumes(zones.blocks, sheets, section, new, volumes)
 
 
 def middles(blocks: Mapping[str, IntArray], nodes: IntArray) -> IntArray:

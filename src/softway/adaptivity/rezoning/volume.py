@@ -16,6 +16,8 @@ ROUNDS = 12
 """Greatest number of corrections."""
 STEP = 1e-6
 """Length, relative to the mesh, by which a part of the boundary moves for its derivative."""
+Sheet = tuple[Mapping[str, IntArray], BoolArray]
+"""Facets of a part of the boundary of zones, and components (n, d) of its nodes that may move."""
 
 
 def volume_of(blocks: Mapping[str, IntArray], section: Section, places: Array) -> float:
@@ -111,7 +113,7 @@ def with_volume(
 
 def with_volumes(
     zones: Sequence[Mapping[str, IntArray]],
-    sheets: Sequence[tuple[Mapping[str, IntArray], BoolArray]],
+    sheets: Sequence[Sheet],
     section: Section,
     places: Array,
     wanted: Array,

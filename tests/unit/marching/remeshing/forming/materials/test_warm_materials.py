@@ -51,13 +51,13 @@ def test_each_material_keeps_its_heat(expansion: float) -> None:
 
 def test_as_on_the_mesh_of_the_start_while_that_is_good() -> None:
     thermal = sw.bodies.Thermal(law=LAWS, temperature=warm)
-    kept, new = (pressed(billet(how, where=layer, thermal=thermal), 0.2, 5) for how in (KEPT, OFTEN))
+    kept, new = (pressed(billet(how, where=layer, thermal=thermal), 0.2, 10) for how in (KEPT, OFTEN))
     assert changes(new)
     one, other = kept[-1].ledger.heat, new[-1].ledger.heat
     assert one is not None
     assert other is not None
     assert other.received == pytest.approx(one.received, rel=5e-3)
-    assert force(new[-1]) == pytest.approx(force(kept[-1]), rel=2e-3)
+    assert force(new[-1]) == pytest.approx(force(kept[-1]), rel=5e-3)
     found = contents(new[-1].model, temperatures(new[-1]))
     assert found == pytest.approx(contents(kept[-1].model, temperatures(kept[-1])), rel=1e-4)
 
