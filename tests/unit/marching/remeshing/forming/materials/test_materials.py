@@ -1,6 +1,8 @@
 """Bimetals whose meshes are replaced: masses, volumes, energy, memory, force, and what is refused."""
 
+import json
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -25,6 +27,7 @@ from forging import KEPT, changes, continues, force
 import softway as sw
 from softway.adaptivity.rezoning.quality import cell_quality
 from softway.adaptivity.rezoning.zones import zones_of
+from softway.apps.cli import main
 from softway.errors import InputError
 from softway.meshes.mesh import Mesh
 
@@ -174,3 +177,50 @@ def test_what_does_not_pass_names_the_region_and_a_remedy(
         sw.march(billet(remesh, mesh, laws=laws), until=1e-3, step=1e-3)
     assert refusal.value.where == where
     assert refusal.value.remedy
+
+
+SCENARIO = """
+title = "bimetal"
+inertia = { kind = "Off" }
+
+[bodies.billet]
+kind = "Solid"
+section = { kind = "Axisymmetric" }
+dilatation = "mean"
+density = { core = "1 kg/m^3", skin = "2 kg/m^3" }
+remesh = { ratio = 1.3, shortened = 0 }
+supports = [{ kind = "Fixed", on = "bottom", components = "y" }, { kind = "Fixed", on = "left", components = "x" }]
+
+[bodies.billet.mesh]
+kind = "Divided"
+rest = "skin"
+mesh = { kind = "Rectangle", size = ["1 m", "0.8 m"], cells = [4, 4] }
+regions = { core = { kind = "InBox", high = ["0.5 m"] } }
+
+[bodies.billet.material]
+core = { kind = "J2", E = "1 kPa", nu = 0.3, yield_stress = "1 Pa" }
+skin = { kind = "J2", E = "2 kPa", nu = 0.3, yield_stress = "2 Pa" }
+
+[bodies.platen]
+kind = "Tool"
+shape = { kind = "HalfSpace", point = [0, 0.8], normal = [0, -1] }
+motion = { kind = "Translation", velocity = [0, -1] }
+
+[[contacts]]
+between = ["billet", "platen"]
+
+[time]
+end = "0.16 s"
+step = "20 ms"
+
+[output]
+fields_every = "20 ms"
+"""
+
+
+def test_a_scenario_file_is_run_and_audited(tmp_path: Path) -> None:
+    (file := tmp_path / "bimetal.toml").write_text(SCENARIO)
+    assert main(["run", str(file), "--out", str(tmp_path / "run")]) == 0
+    assert main(["audit", str(tmp_path / "run"), "--strict"]) == 0
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    assert summary["mesh"]["changes"] >= 1
