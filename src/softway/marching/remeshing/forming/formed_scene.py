@@ -264,12 +264,6 @@ def _kept_masses(density: Densities, before: DiscreteSolid, after: DiscreteSolid
     if not isinstance(density, Mapping):
         volumes = [float(p.internal.sampling.volume.sum()) for p in (before, after)]
         return density * volumes[0] / volumes[1]
-    old, new = _volumes(before), _volumes(after)
+    assert isinstance(before.internal, RegionForces) and isinstance(after.internal, RegionForces)
+    old, new = before.internal.volumes, after.internal.volumes
     return {name: one * old[name] / new[name] if name in old else one for name, one in density.items()}
-
-
-def _volumes(part: DiscreteSolid) -> dict[str, float]:
-    """Reference volume of each material of a solid that has cells [m^3]."""
-    internal = part.internal
-    assert isinstance(internal, RegionForces)
-    return {term.region: float(internal.sampling.volume[term.points].sum()) for term in internal.terms}

@@ -81,8 +81,7 @@ def masses(one: sw.Step) -> Array:
     part = one.model.parts[0]
     internal, materials = part.internal, part.materials
     assert isinstance(internal, RegionForces)
-    volume = internal.sampling.volume
-    return np.array([materials.densities[t.number] * volume[t.points].sum() for t in internal.terms])
+    return np.array([materials.densities[t.number] * internal.volumes[t.region] for t in internal.terms])
 
 
 def volumes(one: sw.Step, state: sw.State | None = None) -> Array:
