@@ -107,6 +107,10 @@ def test_laws_of_heat_that_do_not_pass(law: dict[str, sw.heat.Conduction]) -> No
         sw.march(scene, until=1e-3, step=1e-3)
     assert refusal.value.where == "bodies.body.thermal.law"
     assert "mesh that stays" in refusal.value.remedy
+    laws = dict.fromkeys(law, SOFT) if "low" in law else {"core": SOFT, "skin": SOFT}
+    thermal = sw.bodies.Thermal(law=law if "low" in law else STEEL, temperature=1000.0)
+    body = replace(body, mesh=mesh, material=laws, density=1.0, thermal=thermal)
+    sw.march(replace(scene, bodies={**scene.bodies, "body": body}), until=1e-3, step=1e-3)
 
 
 @pytest.mark.slow
