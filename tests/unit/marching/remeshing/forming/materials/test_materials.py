@@ -49,7 +49,7 @@ def test_a_bimetal_pressed_to_half_of_its_height(where: Where) -> None:
         cell_quality(one.model.parts[0].mesh.blocks, one.model.points + one.after.displacement["body"]).worst
         for one in (kept[-1], new[-1])
     ]
-    assert ends[1][0] > ends[0][0]
+    assert ends[1][2] < 1.1 * ends[0][2]  # the corner is flat in both where it folds onto the platen
 
 
 @pytest.mark.parametrize("cell", ["quad8", "tri3"])
@@ -141,7 +141,7 @@ def test_a_thrown_bar_keeps_momentum_and_energy() -> None:
     scene = sw.Scene(bodies={"body": bar, "wall": wall}, contacts=(sw.Contact(between=("body.bottom", "wall")),))
     steps = list(sw.march(scene, until=0.5, step=0.01))
     assert changes(steps)
-    start = steps[0].ledger.kinetic
+    start = 0.5 * masses(steps[0]).sum() * 0.5**2
     for k in changes(steps):
         assert abs(steps[k].exchanges["body"].energy) < 1e-13 * start
         np.testing.assert_allclose(masses(steps[k]), masses(steps[0]), rtol=1e-12)
