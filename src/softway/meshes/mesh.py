@@ -122,11 +122,7 @@ class Mesh:
 
     def boundary(self) -> Mapping[str, IntArray]:
         """Boundary facets (they belong to one cell only), facing outward: facet cell name -> (f, b) node numbers."""
-        parts: dict[str, list[IntArray]] = {}
-        for name, cells in self.blocks.items():
-            for facet, local in FACETS[name]:
-                parts.setdefault(facet, []).append(cells[:, local])
-        single = {facet: _single(np.concatenate(part), CELLS[facet].corners) for facet, part in parts.items()}
+        single = outer_facets(self.blocks)
         if self.hanging is not None:
             inside = self.hanging.inside
             single = {name: found[~inside(found[:, : CELLS[name].corners])] for name, found in single.items()}
@@ -212,6 +208,21 @@ class Mesh:
 def _frozen(array: NDArray[Scalar]) -> NDArray[Scalar]:
     array.flags.writeable = False
     return array
+
+
+def outer_facets(blocks: Mapping[str, IntArray]) -> dict[str, IntArray]:
+    """Facets (f, b) of cells that belong to one of them only, facing outward, by facet cell name.
+
+    Examples
+    --------
+    >>> outer_facets({"tri3": np.array([[0, 1, 2], [0, 2, 3]])})["bar2"].tolist()
+    [[0, 1], [1, 2], [2, 3], [3, 0]]
+    """
+    parts: dict[str, list[IntArray]] = {}
+    for name, cells in blocks.items():
+        for facet, local in FACETS[name]:
+            parts.setdefault(facet, []).append(cells[:, local])
+    return {facet: _single(np.concatenate(part), CELLS[facet].corners) for facet, part in parts.items()}
 
 
 def _single(facets: IntArray, corners: int) -> IntArray:

@@ -1,5 +1,7 @@
 """Nodes on flat parts of the boundary of a mesh in space, which slide without a change of the shape."""
 
+from collections.abc import Mapping, Sequence
+
 import numpy as np
 
 from softway.arrays import Array, BoolArray, IntArray
@@ -12,11 +14,14 @@ ALIKE = 1e-6
 """Difference of unit normals within which two facets are in one plane."""
 
 
-def sliding(mesh: Mesh, places: Array, kept: BoolArray) -> tuple[IntArray, Array]:
-    """Nodes (k,) of the boundary that slide, and the projections (k, 3, 3) onto the directions in which they do.
+def sliding(
+    mesh: Mesh, places: Array, kept: BoolArray, common: Sequence[Mapping[str, IntArray]] = ()
+) -> tuple[IntArray, Array]:
+    """Corners (k,) of cells on the boundary that slide, and the projections (k, 3, 3) onto the directions in which they
+    do.
 
     A node slides in a plane if all its facets are in this plane and in the same tags; along a straight edge if they are
-    in two planes, and in the tags of each.  Other nodes stay, and all of cells with nodes between their corners.
+    in two planes, and in the tags of each.  Other nodes stay.
 
     Parameters
     ----------
@@ -26,6 +31,8 @@ def sliding(mesh: Mesh, places: Array, kept: BoolArray) -> tuple[IntArray, Array
         (n, 3) places of its nodes [m].
     kept
         (n,) nodes that stay.
+    common
+        Facets of the common boundaries of materials, along which nodes slide as well.
 
     Examples
     --------
@@ -37,36 +44,35 @@ def sliding(mesh: Mesh, places: Array, kept: BoolArray) -> tuple[IntArray, Array
     """
     found: list[int] = []
     ways: list[Array] = []
-    if all(CELLS[cell].order == 1 for cell in mesh.blocks):
-        near, own = FLAT * float(np.ptp(places, axis=0).max()), _facets_of_nodes(mesh)
-        tags = np.array(
-            [np.isin(np.arange(len(places)), nodes) for tag, nodes in mesh.tags.items() if tag != "surface"]
-        )
-        tags = tags.reshape(-1, len(places))
-        for node, facets in own.items():
-            way = None if kept[node] else _way(node, facets, places, tags, near)
-            if way is not None:
-                found.append(node)
-                ways.append(way)
+    near, own = FLAT * float(np.ptp(places, axis=0).max()), _facets_of_corners((mesh.boundary(), *common))
+    tags = np.array([np.isin(np.arange(len(places)), nodes) for tag, nodes in mesh.tags.items() if tag != "surface"])
+    tags = tags.reshape(-1, len(places))
+    for node, facets in own.items():
+        way = None if kept[node] else _way(node, facets, places, tags, near)
+        if way is not None:
+            found.append(node)
+            ways.append(way)
     return np.array(found, dtype=np.int64), np.array(ways).reshape(-1, 3, 3)
 
 
-def _facets_of_nodes(mesh: Mesh) -> dict[int, list[IntArray]]:
-    """Facets of each node of the boundary, in ascending order of the nodes."""
-    found: dict[int, list[IntArray]] = {}
-    for facets in mesh.boundary().values():
-        for facet in facets:
-            for node in facet.tolist():
-                found.setdefault(node, []).append(facet)
+def _facets_of_corners(sheets: Sequence[Mapping[str, IntArray]]) -> dict[int, list[tuple[IntArray, int]]]:
+    """Facets of each corner on the boundary with the number of their corners, in ascending order of the nodes."""
+    found: dict[int, list[tuple[IntArray, int]]] = {}
+    for sheet in sheets:
+        for name, facets in sheet.items():
+            corners = CELLS[name].corners
+            for facet in facets:
+                for node in facet[:corners].tolist():
+                    found.setdefault(node, []).append((facet, corners))
     return dict(sorted(found.items()))
 
 
-def _way(node: int, facets: list[IntArray], places: Array, tags: BoolArray, near: float) -> Array | None:
+def _way(node: int, facets: list[tuple[IntArray, int]], places: Array, tags: BoolArray, near: float) -> Array | None:
     """Projection (3, 3) onto the directions in which a node slides; None if it stays."""
     planes: list[tuple[Array, BoolArray]] = []
-    for facet in facets:
+    for facet, corners in facets:
         x = places[facet] - places[node]
-        normal = np.cross(x[2] - x[0], x[-1] - x[1])
+        normal = np.cross(x[2] - x[0], x[corners - 1] - x[1])
         length = float(np.linalg.norm(normal))
         inside = np.asarray(tags[:, facet].all(axis=1))
         if not length or (np.abs(x @ normal) > near * length).any():

@@ -107,8 +107,15 @@ def ends(mesh: Mesh, rim: IntArray, tags: Sequence[str]) -> BoolArray:
     return found
 
 
-def anchors(base: Mesh, rim: IntArray, places: Array, closed: BoolArray, tags: Sequence[str] = ()) -> Anchors:
-    """Anchors of a rim: corners now and in the base mesh, ends of tags, and ends of the parts in contact.
+def anchors(
+    base: Mesh,
+    rim: IntArray,
+    places: Array,
+    closed: BoolArray,
+    tags: Sequence[str] = (),
+    joints: BoolArray | None = None,
+) -> Anchors:
+    """Anchors of a rim: corners now and in the base mesh, ends of tags, ends of the parts in contact, and joints.
 
     Where a corner of the base mesh has become smooth, and sides beyond it are in contact, the boundary has folded onto
     the body that it touches: the node moves to the end of the contact.
@@ -125,10 +132,13 @@ def anchors(base: Mesh, rim: IntArray, places: Array, closed: BoolArray, tags: S
         (n,) nodes in contact.
     tags
         Tags whose ends stay.
+    joints
+        (n,) nodes at which materials meet; none by default.
     """
     count = len(rim)
     first, kinks = (np.abs(turns(points[rim])) > KINK for points in (base.points, places))
     stay, touching = ends(base, rim, tags), closed[rim]
+    stay = stay if joints is None else stay | joints[rim]
     last = touching & ~(np.roll(touching, 1) & np.roll(touching, -1))
     fixed, target = kinks | first | stay | last, np.arange(count)
     for k in np.flatnonzero(first & ~kinks & touching).tolist():

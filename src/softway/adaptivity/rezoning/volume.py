@@ -1,6 +1,6 @@
 """Volume of a mesh, and its correction by free nodes of the boundary."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -14,6 +14,10 @@ CLOSED = 1e-14
 """Relative defect of the volume at which the correction ends."""
 ROUNDS = 12
 """Greatest number of corrections."""
+STEP = 1e-6
+"""Length, relative to the mesh, by which a part of the boundary moves for its derivative."""
+Sheet = tuple[Mapping[str, IntArray], BoolArray]
+"""Facets of a part of the boundary of zones, and components (n, d) of its nodes that may move."""
 
 
 def volume_of(blocks: Mapping[str, IntArray], section: Section, places: Array) -> float:
@@ -97,13 +101,68 @@ def with_volume(
         defect = wanted - before
         if abs(defect) <= CLOSED * abs(wanted):
             break
-        unit = np.where(free, normals(facets, now), 0.0)
-        length = np.linalg.norm(unit, axis=1, keepdims=True)
+        unit, length = _ways(facets, free, now)
         if not length.any():
             break
-        unit = unit / np.where(length > 0.0, length, 1.0)
         step = defect / (length.sum() if slope is None else slope)
         now = now + step * unit
         after = volume_of(blocks, section, now)
         slope, before = (after - before) / step, after
     return now
+
+
+def with_volumes(
+    zones: Sequence[Mapping[str, IntArray]],
+    sheets: Sequence[Sheet],
+    section: Section,
+    places: Array,
+    wanted: Array,
+) -> Array:
+    """Places (n, d) with given volumes of all zones: free nodes of each sheet, a part of the boundary of zones, move
+    along their normals by one length; of all such lengths the least ones.
+
+    Parameters
+    ----------
+    zones
+        Cells of each zone.
+    sheets
+        Facets of each sheet, and components (n, d) of its nodes that may move.
+    section
+        Section of the cells.
+    places
+        (n, d) places of the nodes [m].
+    wanted
+        (z,) volumes [m^3].
+
+    Examples
+    --------
+    >>> from softway.bodies.elements.section import PlaneStrain
+    >>> from softway.meshes.generators.shapes import rectangle
+    >>> mesh = rectangle((2.0, 1.0), cells=(2, 1))
+    >>> zones = [{"quad4": cell[None]} for cell in mesh.blocks["quad4"]]
+    >>> sheets = [({"bar2": np.array([pair])}, np.isin(np.arange(6), pair)[:, None]) for pair in ([1, 4], [2, 5])]
+    >>> with_volumes(zones, sheets, PlaneStrain(), mesh.points, np.array([1.1, 1.0]))[:3, 0].round(12).tolist()
+    [0.0, 1.1, 2.1]
+    """
+    now, size = np.array(places), STEP * float(np.ptp(places, axis=0).max())
+
+    def volumes(at: Array) -> Array:
+        return np.array([volume_of(blocks, section, at) for blocks in zones])
+
+    for _ in range(ROUNDS):
+        before = volumes(now)
+        defect = wanted - before
+        if (np.abs(defect) <= CLOSED * np.abs(wanted)).all():
+            break
+        units = [_ways(facets, free, now)[0] for facets, free in sheets]
+        slopes = np.stack([(volumes(now + size * unit) - before) / size for unit in units], axis=1)
+        steps = np.linalg.lstsq(slopes, defect, rcond=1e-8)[0]
+        now = now + sum(step * unit for step, unit in zip(steps.tolist(), units, strict=True))
+    return now
+
+
+def _ways(facets: Mapping[str, IntArray], free: BoolArray, places: Array) -> tuple[Array, Array]:
+    """Unit normals (n, d) of the free components of nodes, and the lengths (n, 1) of their area normals."""
+    unit = np.where(free, normals(facets, places), 0.0)
+    length = np.linalg.norm(unit, axis=1, keepdims=True)
+    return unit / np.where(length > 0.0, length, 1.0), length

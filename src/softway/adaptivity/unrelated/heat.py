@@ -131,7 +131,7 @@ class HeatTransfer:
         near, fluxes = np.asarray(self.near @ values), sp.coo_array(self.links)
         rows, columns = fluxes.coords
         flux = fluxes.data * (near[rows] - near[columns])
-        room = self._room(values, low)
+        room = self.room(values, low)
         allowed = _allowed(rows, flux, room)
         share = np.where(flux > 0.0, np.minimum(allowed[0][rows], allowed[1][columns]),
                          np.minimum(allowed[1][rows], allowed[0][columns]))  # fmt: skip
@@ -152,7 +152,7 @@ class HeatTransfer:
         flux = 0.5 * links.data * (values[columns] - values[rows])
         return np.asarray(values + np.bincount(rows, flux, len(values)) / self.capacity)
 
-    def _room(self, values: Array, low: Array) -> tuple[Array, Array]:
+    def room(self, values: Array, low: Array) -> tuple[Array, Array]:
         """Capacities (m,) times the distances of the values ``low`` from the greatest and the least one around."""
         around = values[self.around.indices]
         most = np.maximum(np.maximum.reduceat(around, self.around.indptr[:-1]), low)

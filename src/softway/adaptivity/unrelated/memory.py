@@ -1,19 +1,24 @@
 """Memory of the matter on a mesh that replaces another one, with the present shape as its reference."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
+from softway.adaptivity.rezoning.zones import chosen
 from softway.adaptivity.unrelated.control_volumes import ControlVolumes, control_volumes
 from softway.adaptivity.unrelated.overlap import Overlap, overlap
 from softway.arrays import Array, IntArray
 from softway.bodies.discretised import DiscreteSolid
 from softway.bodies.elements.section import Axisymmetric, PlaneStrain, Volume
+from softway.bodies.internal_force.body_force import BodyForce
 from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce
-from softway.bodies.internal_force.material_state import MaterialState
+from softway.bodies.internal_force.material_state import MaterialState, regional_history
+from softway.bodies.internal_force.regions import RegionForces, Term
 from softway.errors import InputError
 from softway.kernels.linalg import tensors
+from softway.laws.law import RateLaw
 from softway.laws.objective_rates import Jaumann, Truesdell
 
 SECTIONS = Axisymmetric, PlaneStrain, Volume
@@ -77,50 +82,103 @@ def require_recast(part: DiscreteSolid) -> None:
     Raises
     ------
     InputError
-        For laws that store energy by the deformation since the start, or know it, several materials, and sections with
-        a free thickness.
+        For laws that store energy by the deformation since the start, or know it, and sections with a free thickness.
     """
     internal = part.internal
-    remedy = "J2, Hypoelastic or NortonHoff with rate = Jaumann() or Truesdell(), one for the body"
-    if not isinstance(internal, InelasticForce):
-        law = "several laws" if part.materials.owner is not None else type(part.materials.laws[0]).__name__
-        raise InputError("material", f"{law}: the stress depends on the undeformed shape, which is lost", remedy)
-    if not isinstance(internal.material.rate, RATES):
-        problem = f"rate {type(internal.material.rate).__name__}, which knows the deformation since the start"
-        raise InputError("material.rate", problem, remedy)
+    remedy = "J2, Hypoelastic or NortonHoff with rate = Jaumann() or Truesdell()"
+    for region, law in zip(part.materials.regions, part.materials.laws, strict=True):
+        where = f"material.{region}" if region else "material"
+        if not isinstance(law, RateLaw):
+            problem = f"{type(law).__name__}: the stress depends on the undeformed shape, which is lost"
+            raise InputError(where, problem, remedy)
+        if not isinstance(law.rate, RATES):
+            problem = f"rate {type(law.rate).__name__}, which knows the deformation since the start"
+            raise InputError(f"{where}.rate", problem, remedy)
     if not isinstance(internal.section, SECTIONS):
         problem = f"{type(internal.section).__name__}, whose thickness changes from place to place"
         raise InputError("section", problem, "PlaneStrain, Axisymmetric or Volume")
 
 
 def present_volumes(part: DiscreteSolid, displacement: Array) -> Array:
-    """Present volumes (p,) of the points of a solid at a displacement (n, d) [m^3]."""
-    internal = part.internal
-    assert isinstance(internal, InelasticForce)
-    sampling = internal.sampling
-    F = internal.points.gradient(sampling.plain_derivatives(displacement), internal.state.lateral)
-    return np.asarray(tensors.determinant(F) * sampling.volume)
+    """Present volumes (p,) of the points of a solid of one material at a displacement (n, d) [m^3]."""
+    return _side(part, None, displacement).present()
+
+
+def recast_memory(
+    before: DiscreteSolid, displacement: Array, after: DiscreteSolid, state: MaterialState
+) -> MaterialState:
+    """Material state of a solid on a mesh of its present shape; each material has that of its own matter.
+
+    Parameters
+    ----------
+    before, displacement
+        The solid on the old mesh, with a displacement (n, d) [m].
+    after
+        The solid on the new mesh.
+    state
+        Material state on the old mesh.
+    """
+    old, new = before.internal, after.internal
+    if not (isinstance(old, RegionForces) and isinstance(new, RegionForces)):
+        return recast_state(recast(before, displacement, after), state, np.asarray(old.sampling.volume))
+    terms, regions = {term.region: term for term in old.terms}, {}
+    for term in new.terms:
+        was = terms[term.region]
+        sides = _side(before, was, displacement), _side(after, term, np.zeros_like(after.mesh.points))
+        regions[term.region] = recast_state(_recast(*sides), state.regions[term.region], was.internal.sampling.volume)
+    return regional_history(np.zeros_like(after.mesh.points), regions, 0.0)
+
+
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _Side:
+    """Cells of one law with places (n, d) of their nodes and displacements (k, d) of those of the ``internal`` force
+    [m].
+    """
+
+    blocks: Mapping[str, IntArray]
+    places: Array
+    internal: BodyForce
+    displacement: Array
+
+    def volumes(self) -> ControlVolumes:
+        """Control volumes of the points."""
+        counts = (rows.shape[1] for rows in self.internal.sampling.rows)
+        return control_volumes(self.blocks, self.places, dict(zip(self.blocks, counts, strict=True)))
+
+    def present(self) -> Array:
+        """Present volumes (p,) of the points [m^3]."""
+        internal = self.internal
+        assert isinstance(internal, InelasticForce)
+        sampling = internal.sampling
+        F = internal.points.gradient(sampling.plain_derivatives(self.displacement), internal.state.lateral)
+        return np.asarray(tensors.determinant(F) * sampling.volume)
+
+
+def _side(part: DiscreteSolid, term: Term | None, displacement: Array) -> _Side:
+    """Cells of a region of a solid at a displacement (n, d); all for None."""
+    blocks, internal, own = dict(part.mesh.blocks), part.internal, displacement
+    if term is not None:
+        mine = np.isin(np.arange(part.mesh.n_cells), term.cells)
+        blocks, internal, own = chosen(blocks, mine), term.internal, displacement[term.nodes]
+    return _Side(blocks=blocks, places=part.mesh.points + displacement, internal=internal, displacement=own)
 
 
 def recast(before: DiscreteSolid, displacement: Array, after: DiscreteSolid) -> Recast:
-    """Transfer from a solid with a displacement (n, d) [m] to one on a mesh of its present shape."""
-    old = _volumes(before, before.mesh.points + displacement)
-    new = _volumes(after, after.mesh.points)
-    radial = isinstance(after.internal.section, Axisymmetric)
+    """Transfer from a solid of one material with a displacement (n, d) [m] to one on a mesh of its present shape."""
+    return _recast(_side(before, None, displacement), _side(after, None, np.zeros_like(after.mesh.points)))
+
+
+def _recast(before: _Side, after: _Side) -> Recast:
+    """Transfer between cells of one law."""
+    old, new, radial = before.volumes(), after.volumes(), isinstance(after.internal.section, Axisymmetric)
     return Recast(
         old=old,
         new=new,
         found=overlap(old, new, radial=radial),
-        before=present_volumes(before, displacement),
+        before=before.present(),
         after=np.asarray(after.internal.sampling.volume),
-        nodes=after.mesh.n_nodes,
+        nodes=len(after.displacement),
     )
-
-
-def _volumes(part: DiscreteSolid, places: Array) -> ControlVolumes:
-    cells: dict[str, IntArray] = dict(part.mesh.blocks)
-    points = len(part.internal.sampling.volume) // part.mesh.n_cells
-    return control_volumes(cells, places, dict.fromkeys(cells, points))
 
 
 def recast_state(cast: Recast, state: MaterialState, reference: Array) -> MaterialState:

@@ -32,16 +32,24 @@ def own_state(states: MaterialStates, solid: int, region: str) -> MaterialState:
     """State of the law of a region of a solid, by its number; of a solid of one law without a region."""
     state = states[solid]
     assert state is not None
-    return state.regions[region] if region else state
+    return of_region(state, region)
 
 
 def with_own_state(states: MaterialStates, solid: int, region: str, new: MaterialState) -> MaterialStates:
     """States with a new one in the place of :func:`own_state`."""
     state = states[solid]
     assert state is not None
-    if region:
-        new = replace(state, regions={**state.regions, region: new})
-    return (*states[:solid], new, *states[solid + 1 :])
+    return (*states[:solid], with_region(state, region, new), *states[solid + 1 :])
+
+
+def of_region(state: MaterialState, region: str) -> MaterialState:
+    """State of the law of a region in that of a solid; the state itself of a solid of one law, without a region."""
+    return state.regions[region] if region else state
+
+
+def with_region(state: MaterialState, region: str, new: MaterialState) -> MaterialState:
+    """State of a solid with a new one in the place of :func:`of_region`."""
+    return replace(state, regions={**state.regions, region: new}) if region else new
 
 
 def scaled(parts: tuple[DiscreteSolid, ...], factor: Array | None) -> tuple[DiscreteSolid, ...]:

@@ -76,6 +76,11 @@ class RegionForces:
         return self.sampled.sampling
 
     @property
+    def volumes(self) -> dict[str, float]:
+        """Reference volume of each region [m^3]."""
+        return {term.region: float(self.sampling.volume[term.points].sum()) for term in self.terms}
+
+    @property
     def directions(self) -> Array:
         """(p, m, D) or (1, m, D) reference directions of the points."""
         return self.sampled.directions

@@ -34,7 +34,7 @@ class Remesh:
     by
         ``rezone``: the same cells with their nodes in other places; ``new cells``: other triangles or tetrahedra, and
         in the plane a boundary that is spaced anew; ``auto``: rezoning, and new cells where no rezoned mesh is within
-        the limits and the cells are triangles or tetrahedra.
+        the limits and the cells are triangles or tetrahedra of one material.
     generator
         What makes new cells: ``own``, or ``mmg``, which needs the extra ``remesh``.
     quality

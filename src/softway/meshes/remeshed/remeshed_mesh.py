@@ -1,5 +1,6 @@
 """Mesh that has replaced another one in a march, and where its matter was at the start."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -8,6 +9,9 @@ import scipy.sparse as sp
 from softway.arrays import Array
 from softway.errors import InputError
 from softway.meshes.mesh import Mesh
+
+Densities = float | Mapping[str, float]
+"""Mass per volume of a solid, or of each of its materials by region [kg/m^3]."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -21,7 +25,7 @@ class RemeshedMesh:
     mesh
         Present mesh, with n nodes.
     density
-        Mass per volume of this mesh [kg/m^3]: it keeps the mass of the solid.
+        Mass per volume of this mesh, or of each material by region [kg/m^3]: it keeps their masses.
     origin
         (n, d) places at the start of the matter that was in the nodes of the present mesh when it was new [m].
     matter
@@ -40,7 +44,7 @@ class RemeshedMesh:
 
     first: Mesh
     mesh: Mesh
-    density: float
+    density: Densities
     origin: Array
     matter: sp.csr_array
     sizes: Array
@@ -80,7 +84,8 @@ class RemeshedMesh:
             raise InputError("mesh", "a mesh of another body", "the mesh of this march")
         fits = self.origin.shape == self.mesh.points.shape and rows.shape == (first.n_nodes, n)
         numbers = fits and np.isfinite(self.origin).all() and np.isfinite(rows.data).all()
-        if not (numbers and np.isfinite(self.density) and self.density > 0.0):
+        masses = np.array(list(self.density.values()) if isinstance(self.density, Mapping) else [self.density])
+        if not (numbers and np.isfinite(masses).all() and (masses > 0.0).all()):
             raise InputError("origin", "no places of the matter at the start, or no density", "those of this march")
         if self.sizes.shape != (n,) or not (np.isfinite(self.sizes).all() and (self.sizes > 0.0).all()):
             raise InputError("sizes", "no lengths of edges at the nodes", "those of this march")
@@ -89,7 +94,7 @@ class RemeshedMesh:
             raise InputError("base", "another number of nodes than the mesh", "the mesh of this march")
 
 
-def remeshed_mesh(first: Mesh, density: float, sizes: Array) -> RemeshedMesh:
+def remeshed_mesh(first: Mesh, density: Densities, sizes: Array) -> RemeshedMesh:
     """The mesh at the start of a march, which nothing has replaced yet, with the lengths (n,) of its edges [m]."""
     matter = sp.csr_array(sp.eye_array(first.n_nodes, format="csr"))
     origin = np.array(first.points)

@@ -11,7 +11,6 @@ from softway.adaptivity.unrelated.control_volumes import ControlVolumes, control
 from softway.adaptivity.unrelated.overlap import overlap
 from softway.arrays import Array
 from softway.bodies.elements.section import Volume
-from softway.errors import InputError
 from softway.meshes.element import element
 from softway.meshes.generators.shapes import box
 from softway.meshes.mesh import Mesh
@@ -65,12 +64,6 @@ def test_means_over_warped_hexahedra_are_exact_for_linear_fields() -> None:
     inside = np.abs(centres(other) - 0.5).max(axis=1) < 0.2
     assert inside.sum() > 5
     assert meets.means(centres(one) @ slope)[inside] == pytest.approx((centres(other) @ slope)[inside], abs=1e-12)
-
-
-def test_quadratic_hexahedra_are_refused() -> None:
-    with pytest.raises(InputError) as refusal:
-        control_volumes(box((1.0,) * 3, (1, 1, 1), cell="hex20").blocks, np.zeros((20, 3)), {"hex20": 27})
-    assert "hex8" in refusal.value.remedy
 
 
 def test_nodes_slide_on_flat_faces_and_straight_edges() -> None:

@@ -72,6 +72,7 @@ MODULES = (
 ROBOTS = "an extra that is not always installed: tests/unit/mechanisms/test_robot_files.py"
 INNER = "called inside only, after the check of what the user has given"
 NEW_CELLS = "tests/unit/marching/remeshing/forming/test_new_cells.py"
+BIMETALS = "from Python: tests/unit/marching/remeshing/forming/materials/test_warm_materials.py"
 WARM = "from Python: tests/unit/marching/remeshing/forming/warm/test_warm_forging.py"
 FORGED = "from Python: tests/unit/marching/remeshing/forming/test_forming_march.py"
 DEVICE = "devices, with Warp and without: tests/unit/solve/device/test_device_input.py"
@@ -137,6 +138,7 @@ REASONS = {
     "marching/remeshing/forming/formable.py: _require_plain": FORGED,
     "marching/remeshing/forming/formable.py: _require_alone": FORGED,
     "marching/remeshing/forming/formable.py: _require_passing": WARM,
+    "marching/remeshing/forming/formable.py: _require_heat_of_materials": BIMETALS,
     "meshes/remeshed/remeshed_mesh.py: require_of": "damaged: tests/unit/marching/remeshing/forming/test_continued.py",
     "meshes/remeshed/remesh.py: __post_init__": FORGED,
     "scenario/files.py: load": "millions of characters",

@@ -9,10 +9,9 @@ import scipy.sparse as sp
 from softway.adaptivity.rezoning.quality import cell_quality
 from softway.adaptivity.rezoning.volume import volume_of
 from softway.adaptivity.unrelated.fields import interpolation
-from softway.adaptivity.unrelated.memory import recast, recast_state
+from softway.adaptivity.unrelated.memory import recast_memory
 from softway.adaptivity.unrelated.motion import moved_on
 from softway.arrays import Array, IntArray
-from softway.bodies.internal_force.inelastic.inelastic_force import InelasticForce
 from softway.marching.remeshing.carried.settling import Unsettled
 from softway.marching.remeshing.carried.surface_forces import SurfaceForces, surface_forces
 from softway.marching.remeshing.carried_heat import heat_of, starting_at, with_digits
@@ -87,9 +86,7 @@ def _recast(old: FormedScene, new: FormedScene, state: State, changed: Collectio
     for name in changed:
         before, after = old.part(name), new.part(name)
         u = state.displacement[name]
-        assert isinstance(before.internal, InelasticForce)
-        cast = recast(before, u, after)
-        memories[name] = recast_state(cast, state.memory[name], np.asarray(before.internal.sampling.volume))
+        memories[name] = recast_memory(before, u, after, state.memory[name])
         displacement[name] = np.zeros((after.mesh.n_nodes, after.mesh.dim))
         pair = heavy(old.model, before), heavy(new.model, after)
         velocity[name], acceleration[name] = (moved_on(*pair, u, field[name]) for field in (velocity, acceleration))

@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from softway.arrays import Array
+from softway.bodies.assembled.material_states import of_region, with_region
 from softway.heat.coupled.strain.deformed import deformed
 from softway.heat.operators import HeatValues
 from softway.marching.remeshing.carried_heat import (
@@ -104,7 +105,8 @@ def _with_pressure(model: Model, values: HeatValues, state: State, changed: Coll
     u = model.join(state.displacement)
     for expansion in temperature.expansions:
         if expansion.solid in changed:
-            own, pressure = memory[expansion.solid], expansion.pressures(free, u)[0]
+            whole, pressure = memory[expansion.solid], expansion.pressures(free, u)[0]
+            own = of_region(whole, expansion.region)
             stress = own.stress - (sign * pressure)[:, None, None] * np.eye(3)
-            memory[expansion.solid] = replace(own, stress=stress)
+            memory[expansion.solid] = with_region(whole, expansion.region, replace(own, stress=stress))
     return replace(state, memory=memory)

@@ -1,7 +1,7 @@
 """Which solids may get new meshes: refusals, and solids with ``auto`` whose meshes stay."""
 
 import logging
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -11,6 +11,8 @@ from softway.adaptivity.unrelated.control_volumes import require_cells
 from softway.adaptivity.unrelated.heat import require_simplices
 from softway.adaptivity.unrelated.memory import require_recast
 from softway.bodies.conductor import Thermal
+from softway.bodies.discretised import DiscreteSolid
+from softway.bodies.internal_force.materials import owners
 from softway.bodies.setup.loads import Traction
 from softway.bodies.setup.supports import Carried, Guided
 from softway.bodies.solid import Solid
@@ -63,28 +65,30 @@ def require_formable(model: Model, name: str, method: Method) -> None:
     Raises
     ------
     InputError
-        With the place in the scene: laws that know the undeformed shape, several materials, plane stress, other cells,
-        melting strain, expansion beside a stiffness by temperature, several laws of heat, bulk viscosity, ties,
-        tractions, supports that measure from the undeformed shape, new cells of other shapes or around supports inside,
-        Mmg that is not installed, rigid bodies, solids that adapt, or central differences.
+        With the place in the scene: laws that know the undeformed shape, plane stress, other cells, melting strain,
+        expansion beside a stiffness by temperature, laws of heat that depend on the temperature or divide a material,
+        bulk viscosity, ties, tractions, supports that measure from the undeformed shape, new cells of other shapes, of
+        several materials or around supports inside, Mmg that is not installed, rigid bodies, solids that adapt, or
+        central differences.
     """
     part = next(p for p in model.parts if p.name == name)
     with within(f"bodies.{name}"):
         require_recast(part)
         require_cells(part.mesh.blocks)
         _require_new_cells(part.mesh, _solid(model, name))
-        _require_plain(_solid(model, name), part.mesh.blocks)
+        _require_plain(_solid(model, name), part)
     _require_alone(model, name, method)
 
 
-def _require_plain(solid: Solid, blocks: Iterable[str]) -> None:
-    """Refuse parts of a solid of some types of cells that do not pass to a new mesh."""
+def _require_plain(solid: Solid, part: DiscreteSolid) -> None:
+    """Refuse what of a solid does not pass to a new mesh."""
     if solid.shock is not None:
         raise InputError("shock", "bulk viscosity, which does not pass to a new mesh", "no shock, or a mesh that stays")
     if solid.thermal is not None:
         with within("thermal"):
-            require_simplices(blocks)
+            require_simplices(part.mesh.blocks)
             _require_passing(solid.thermal)
+            _require_heat_of_materials(solid.thermal, part)
     if any(isinstance(support, Guided | Carried) for support in solid.supports):
         problem = "Guided or Carried, which measure from the shape at the start"
         raise InputError("supports", problem, "Fixed or Driven, or a mesh that stays")
@@ -98,14 +102,34 @@ def _require_passing(thermal: Thermal) -> None:
     if thermal.expansion and thermal.stiffness is not None:
         problem = "expansion of a stiffness by temperature, whose heat knows the deformation since the start"
         raise InputError("expansion", problem, "no expansion, no stiffness, or a mesh that stays")
-    if isinstance(thermal.law, Mapping):
-        problem = "several laws, whose regions have other capacities on a new mesh"
-        raise InputError("law", problem, "one law, or a mesh that stays")
+
+
+def _require_heat_of_materials(thermal: Thermal, part: DiscreteSolid) -> None:
+    """Refuse several laws of heat in one material, whose volumes are not kept apart, and those of which a node has no
+    temperature from its content alone.
+    """
+    if not isinstance(thermal.law, Mapping):
+        return
+    for region, law in thermal.law.items():
+        if not law.constant:
+            problem = f"several laws, one of which depends on the temperature, in {region!r}"
+            raise InputError("law", problem, "laws that are constant, or one law, or a mesh that stays")
+    laws = owners(part.mesh, tuple(thermal.law), "law")
+    materials = np.zeros_like(laws) if part.materials.owner is None else part.materials.owner
+    for number, region in enumerate(part.materials.regions):
+        found = np.unique(laws[materials == number])
+        if len(found) > 1:
+            names = ", ".join(list(thermal.law)[k] for k in found)
+            remedy = f"materials by the same regions, material = {{ {names} }}, or a mesh that stays"
+            raise InputError("law", f"several laws in one material{f' {region!r}' * bool(region)}: {names}", remedy)
 
 
 def makes_cells(how: Remesh, mesh: Mesh, solid: Solid) -> bool:
-    """Whether a solid may get new cells: its cells are triangles or tetrahedra, and no support is on nodes inside."""
-    return how.by != "rezone" and _simplices(mesh) and _held_inside(mesh, solid) is None
+    """Whether a solid may get new cells: its cells are triangles or tetrahedra of one material, and no support is on
+    nodes inside.
+    """
+    several = isinstance(solid.material, Mapping)
+    return how.by != "rezone" and _simplices(mesh) and not several and _held_inside(mesh, solid) is None
 
 
 def _require_new_cells(mesh: Mesh, solid: Solid) -> None:
@@ -121,6 +145,8 @@ def _require_new_cells(mesh: Mesh, solid: Solid) -> None:
         names = " or ".join(SIMPLICES[mesh.dim - 2])
         remedy = f'a mesh of {names}, with dilatation = "corner" where the volume stays; or by = "rezone"'
         raise InputError("remesh.by", f"new cells for {', '.join(mesh.blocks)}", remedy)
+    if how.by == "new cells" and isinstance(solid.material, Mapping):
+        raise InputError("remesh.by", "new cells of several materials, whose nodes slide only", 'by = "rezone"')
     if how.by == "new cells" and inside is not None:
         raise InputError("remesh.by", f"new cells with a support on nodes inside, {inside!r}", 'by = "rezone"')
 

@@ -12,6 +12,7 @@ from softway.adaptivity.unrelated.fields import interpolation
 from softway.arrays import Array, BoolArray
 from softway.bodies.discretised import DiscreteSolid, discretise
 from softway.bodies.elements.section import Axisymmetric
+from softway.bodies.internal_force.regions import RegionForces
 from softway.bodies.setup.initial_fields import Uniform
 from softway.bodies.setup.placement import Placement
 from softway.bodies.solid import Solid
@@ -23,7 +24,7 @@ from softway.marching.remeshing.forming.formable import replacements
 from softway.marching.state.march_state import MarchState
 from softway.meshes.mesh import Mesh
 from softway.meshes.remeshed.remesh import Quality, worse
-from softway.meshes.remeshed.remeshed_mesh import RemeshedMesh, remeshed_mesh
+from softway.meshes.remeshed.remeshed_mesh import Densities, RemeshedMesh, remeshed_mesh
 from softway.model.model import Model
 from softway.model.scene import Scene
 
@@ -143,7 +144,7 @@ class FormedScene:
         new = {**self.new, **{name: _quality(mesh.mesh) for name, mesh in changed.items()}}
         return FormedScene(model=replace(model, remeshed=meshes, declared=self.model.declared), new=new)
 
-    def _still(self, name: str, mesh: Mesh, density: float) -> Solid:
+    def _still(self, name: str, mesh: Mesh, density: Densities) -> Solid:
         """A solid on another mesh, where it is: its motion and its temperature are in the state.
 
         The stress of its law counts the free strain from one temperature: it takes what the mesh of the start has in
@@ -161,12 +162,10 @@ class FormedScene:
     def _followed(self, name: str, new: Replacement, places: Array) -> RemeshedMesh:
         """The mesh that replaces that of a solid with nodes at ``places`` (n, d)."""
         part, before, mesh = self.part(name), self.meshes[name], new.mesh
-        still = self._still(name, mesh, before.density)
-        volumes = [float(p.internal.sampling.volume.sum()) for p in (part, discretise(name, still, 0))]
+        still = discretise(name, self._still(name, mesh, before.density), 0)
         back = interpolation(part.mesh.blocks, places, mesh.points)
         matter = interpolation(mesh.blocks, mesh.points, before.matter @ places)
-        density = before.density * volumes[0] / volumes[1]
-        found = before.followed(mesh, new.sizes)
+        found, density = before.followed(mesh, new.sizes), _kept_masses(before.density, part, still)
         return replace(found, density=density, origin=np.asarray(back @ before.origin), matter=matter)
 
     def touching(self, now: MarchState, name: str) -> tuple[BoolArray, BoolArray]:
@@ -227,8 +226,19 @@ def _solid(scene: Scene, name: str) -> Solid:
     return solid
 
 
-def _density(scene: Scene, name: str) -> float:
-    """Density of a solid of one material [kg/m^3]."""
-    density = _solid(scene, name).density
-    assert isinstance(density, float | int)
-    return float(density)
+def _density(scene: Scene, name: str) -> Densities:
+    """Density of a solid, one for each region where it has several materials [kg/m^3]."""
+    solid = _solid(scene, name)
+    if isinstance(solid.material, Mapping) and not isinstance(solid.density, Mapping):
+        return dict.fromkeys(solid.material, float(solid.density))
+    return solid.density
+
+
+def _kept_masses(density: Densities, before: DiscreteSolid, after: DiscreteSolid) -> Densities:
+    """Densities with which each material of a solid has its mass on another mesh [kg/m^3]."""
+    if not isinstance(density, Mapping):
+        volumes = [float(p.internal.sampling.volume.sum()) for p in (before, after)]
+        return density * volumes[0] / volumes[1]
+    assert isinstance(before.internal, RegionForces) and isinstance(after.internal, RegionForces)
+    old, new = before.internal.volumes, after.internal.volumes
+    return {name: one * old[name] / new[name] if name in old else one for name, one in density.items()}

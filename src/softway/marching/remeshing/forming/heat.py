@@ -5,14 +5,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from softway.adaptivity.rezoning.zones import zones_of
 from softway.adaptivity.unrelated.heat import HeatTransfer, heat_transfer, sampled
+from softway.adaptivity.unrelated.heat_of_zones import HeatedZones, HeatOfZones, heat_of_zones
 from softway.arrays import Array
+from softway.bodies.assembled.material_states import of_region, with_region
+from softway.bodies.discretised import DiscreteSolid
+from softway.bodies.inertia.nodal_heat import heat_masses
 from softway.heat.coupled.point_temperature import after_jumps
 from softway.heat.coupled.solid_temperature import TEMPERATURE
 from softway.heat.fronts.carried_contents import with_contents
 from softway.heat.heat_model import HeatModel, HeatPart
 from softway.heat.operators import HeatValues, entropy, heat_values
 from softway.laws.heat.heat_content import ContentCurve, content_curve
+from softway.laws.heat.temperature_table import value_at
 from softway.marching.remeshing.carried_heat import heat_to_pass, temperature_of, temperatures_from
 from softway.marching.remeshing.forming.expansion import stress_of_laws
 from softway.marching.state.model_state import ModelState
@@ -25,6 +31,10 @@ UNMIXED = 3
 """Searches without an exchange between neighbours."""
 MARGIN = 1.5
 """Entropy that the contents get, relative to what the cut cells lack."""
+
+
+Transfer = HeatTransfer | HeatOfZones
+"""Transfer of the heat of a solid of one material, or of several."""
 
 
 def heat_on(models: tuple[Model, Model], now: ModelState, changed: Collection[str]) -> Array | None:
@@ -68,7 +78,7 @@ def heat_on(models: tuple[Model, Model], now: ModelState, changed: Collection[st
 class _Melting:
     """Solid with cut cells, whose contents pass over: its parts of the old and the new model, and the heat before."""
 
-    transfer: HeatTransfer
+    transfer: Transfer
     part: HeatPart
     was: HeatPart
     old: HeatModel
@@ -120,20 +130,54 @@ def _melted(heat: HeatModel, unknowns: Array, solids: Sequence[_Melting]) -> Arr
     return found
 
 
-def _transfer(models: tuple[Model, Model], now: ModelState, parts: tuple[HeatPart, HeatPart]) -> HeatTransfer:
+def _transfer(models: tuple[Model, Model], now: ModelState, parts: tuple[HeatPart, HeatPart]) -> Transfer:
     """Transfer of the heat of a solid: of capacities, or of masses where the capacity depends on the temperature."""
-    sides, weights = [], []
-    for model, heat, at in zip(models, parts, (now.start.displacement, None), strict=True):
-        part, found = next(p for p in model.parts if p.name == heat.name), temperature_of(model)
-        assert found is not None
-        places = part.mesh.points if at is None else part.mesh.points + at[part.nodes]
-        sides.append(sampled(part.mesh.blocks, places, part.internal.section))
-        of = found[1].model
-        weights.append((of.mass if of.capacity is None else of.capacity)[heat.nodes])
-    return heat_transfer(sides[0], sides[1], weights[0], weights[1])
+    sides = [
+        _side(model, heat, at) for model, heat, at in zip(models, parts, (now.start.displacement, None), strict=True)
+    ]
+    (old, before), (new, after) = sides
+    section = new.internal.section
+    if new.materials.owner is not None:
+        one, other = (
+            _zones(model, part, at) for model, (part, at) in zip(models, ((old, before), (new, after)), strict=True)
+        )
+        return heat_of_zones(one, other, section)
+    weights = [_weight(model)[heat.nodes] for model, heat in zip(models, parts, strict=True)]
+    samples = [sampled(part.mesh.blocks, places, section) for part, places in sides]
+    return heat_transfer(samples[0], samples[1], weights[0], weights[1])
 
 
-def _unknowns(transfer: HeatTransfer, part: HeatPart, old: HeatModel, was: HeatPart, last: HeatValues) -> Array:
+def _side(model: Model, heat: HeatPart, at: Array | None) -> tuple[DiscreteSolid, Array]:
+    """A solid, and the places (n, d) of its nodes at displacements of all, or at rest [m]."""
+    part = next(p for p in model.parts if p.name == heat.name)
+    return part, part.mesh.points if at is None else part.mesh.points + at[part.nodes]
+
+
+def _weight(model: Model) -> Array:
+    """Capacities of all nodes with heat, or masses where the capacity depends on the temperature."""
+    found = temperature_of(model)
+    assert found is not None
+    of = found[1].model
+    return of.mass if of.capacity is None else of.capacity
+
+
+def _zones(model: Model, part: DiscreteSolid, places: Array) -> HeatedZones:
+    """A solid of several materials with the capacities, or masses, of its nodes in each."""
+    materials, found, factors = part.materials, temperature_of(model), np.ones(part.mesh.n_cells)
+    assert found is not None and materials.owner is not None
+    heat = found[1].model
+    first = next(p for p in heat.parts if p.name == part.name).cells.start
+    for cells in heat.cells if heat.capacity is not None else ():
+        own = cells.numbers - first
+        here = (own >= 0) & (own < part.mesh.n_cells)
+        factors[own[here]] = float(value_at(cells.law.capacity, np.ones(1))[0])
+    weight, zones = np.asarray(materials.density) * factors, zones_of(part.mesh, materials.owner)
+    inside = [materials.owner == k for k in np.unique(materials.owner).tolist()]
+    capacities = tuple(heat_masses(part.mesh, part.internal.section, weight, one) for one in inside)
+    return HeatedZones(blocks=zones.blocks, places=places, capacities=capacities)
+
+
+def _unknowns(transfer: Transfer, part: HeatPart, old: HeatModel, was: HeatPart, last: HeatValues) -> Array:
     """Unknowns (m,) of a solid without cut cells."""
     values = last.unknowns[was.nodes]
     if old.capacity is not None:
@@ -165,10 +209,10 @@ def warmed_state(model: Model, state: State, unknowns: Array | None, changed: Co
         name = model.parts[point.solid].name
         if name not in changed:
             continue
-        own, (kelvin, factor, _) = memory[name], point.at(points)
+        own, (kelvin, factor, _) = of_region(memory[name], point.region), point.at(points)
         if own.temperature is not None:
             own = replace(own, temperature=kelvin)
         if own.stiffness is not None:
             own = replace(own, stiffness=factor)
-        memory[name] = own
+        memory[name] = with_region(memory[name], point.region, own)
     return replace(state, memory=memory, fields={**state.fields, TEMPERATURE.name: found})

@@ -90,12 +90,34 @@ def test_warm_hexahedra_keep_their_heat() -> None:
     assert np.ptp(values) < 200.0
 
 
-def test_new_cells_and_quadratic_hexahedra_are_refused_with_remedies() -> None:
+@pytest.mark.slow
+def test_quadratic_hexahedra_slide_on_flat_faces_with_the_middles_of_their_edges() -> None:
+    kept, new = (pressed(block(how, "hex20"), 0.3, 9) for how in (KEPT, HOW))
+    assert len(changes(new)) >= 2
+    for one in new:
+        if one.exchanges:
+            assert abs(one.exchanges["body"].volume) < 1e-13
+            assert abs(one.exchanges["body"].energy) < 1e-13 * one.ledger.work_external
+    assert abs(new[-1].ledger.energy_error) < 1e-12 * new[-1].ledger.work_external
+    assert force(new[-1]) == pytest.approx(force(kept[-1]), rel=2e-2)
+    assert volume(new[-1]) == pytest.approx(volume(kept[-1]), rel=1e-4)
+    part = new[-1].model.parts[0]
+    edges = part.mesh.blocks["hex20"][:, [0, 1, 8]]
+    on = np.isin(edges, part.mesh.nodes("bottom")).all(axis=1)
+    x = part.mesh.points[edges[on]]
+    assert x[:, 2] == pytest.approx(0.5 * (x[:, 0] + x[:, 1]), abs=1e-15)
+
+
+def test_new_cells_and_other_hexahedra_are_refused_with_remedies() -> None:
     with pytest.raises(InputError) as refusal:
         sw.march(block(sw.meshes.Remesh(by="new cells")), until=1e-3, step=1e-3)
     assert refusal.value.where == "bodies.body.remesh.by"
     assert 'by = "rezone"' in refusal.value.remedy
     with pytest.raises(InputError) as refusal:
-        sw.march(block(sw.meshes.Remesh(), "hex20"), until=1e-3, step=1e-3)
+        sw.march(block(sw.meshes.Remesh(), "hex27"), until=1e-3, step=1e-3)
     assert refusal.value.where == "bodies.body.mesh"
-    assert "hex8" in refusal.value.remedy
+    assert "hex20" in refusal.value.remedy
+    thermal = sw.bodies.Thermal(law=sw.heat.Conduction(conductivity=1.0, capacity=1.0), temperature=300.0)
+    with pytest.raises(InputError) as refusal:
+        sw.march(block(sw.meshes.Remesh(), "hex20", thermal=thermal), until=1e-3, step=1e-3)
+    assert refusal.value.where == "bodies.body.thermal.mesh"

@@ -139,7 +139,7 @@ def test_the_same_bits_from_a_stored_state() -> None:
             replace(WARM, law=replace(STEEL, latent=LATENT), melting_strain=0.01),
             "bodies.body.thermal.melting_strain",
         ),
-        (replace(WARM, law={"a": STEEL}), "bodies.body.thermal.law"),
+        (replace(WARM, law={"a": STEEL, "b": STEEL}), "bodies.body.thermal.law"),
     ],
 )
 def test_heat_that_does_not_pass(thermal: sw.bodies.Thermal, where: str) -> None:
@@ -147,7 +147,8 @@ def test_heat_that_does_not_pass(thermal: sw.bodies.Thermal, where: str) -> None
     scene = billet(sw.meshes.Remesh(), thermal)
     body = scene.bodies["body"]
     assert isinstance(body, sw.Solid)
-    mesh = body.mesh.with_region("a", lambda x: x[:, 0] < 2.0)  # type: ignore[union-attr]
+    mesh = body.mesh.with_region("a", lambda x: x[:, 0] < 0.5)  # type: ignore[union-attr]
+    mesh = mesh.with_region("b", lambda x: x[:, 0] > 0.5)
     scene = replace(scene, bodies={**scene.bodies, "body": replace(body, mesh=mesh)})
     with pytest.raises(InputError) as refusal:
         sw.march(scene, until=1e-3, step=1e-3)
