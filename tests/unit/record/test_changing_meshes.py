@@ -205,6 +205,7 @@ def test_the_space_time_mesh_has_the_nodes_of_every_frame(bar):
     assert (track[:, 1] > track[:, 0]).all() and low == track.min() and high == track.max()
 
 
+@pytest.mark.few(2)
 def test_pictures_and_films(run, tmp_path):
     assert main(["plot", str(run.path), "--out", str(tmp_path / "picture.png")]) == 0
     assert (tmp_path / "picture.png").is_file() and (tmp_path / "picture_history.png").is_file()

@@ -124,8 +124,8 @@ def _side(corners: tuple[Array, Array], thickness: Array | float) -> Side:
     return Side(
         start=start,
         end=end,
-        normal=unit(vector_areas(start)),
-        last=unit(vector_areas(end)),
+        normal=np.ascontiguousarray(unit(vector_areas(start))),
+        last=np.ascontiguousarray(unit(vector_areas(end))),
         size=_sizes(start),
         motion=_centre_motion(corners),
         wall=np.full(start.shape[2], thickness, float),

@@ -114,7 +114,7 @@ def _facets(slave: LinearSurface) -> Facets:
     rows.sort_indices()
     facet, place = np.divmod(rows.indices.astype(np.int64), width)
     return Facets(
-        cells=cells.astype(np.int64),
+        cells=np.ascontiguousarray(cells, np.int64),
         simplex=np.concatenate([[0], np.cumsum(number)]).astype(np.int64),
         start=rows.indptr.astype(np.int64),
         facet=facet,

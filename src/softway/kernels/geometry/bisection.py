@@ -7,7 +7,7 @@ the codes of the edges.
 
 import numpy as np
 
-from softway.kernels.jit.compilation import inlined, kernel
+from softway.kernels.jit.compilation import called, inlined, kernel
 
 DEPTH = 40
 """Exponent of the length of the key of a base cell."""
@@ -41,6 +41,7 @@ def bisected(rows, place, codes, nodes, count, start, level, closed):
     """
     c, n = place.shape[1], len(rows)
     cells, places, table = _room(rows, n + 64), _room(place, n + 64), _table(codes, nodes, 4 * (n + len(codes)) + 256)
+    parent, corners, order = np.empty(c + 5, np.int64), np.empty((c + 1, c)), np.empty(c, np.int64)
     i = 0
     while i < n:
         if _wanted(cells[i, c + 3], cells[i, c + 4], start, level):
@@ -48,7 +49,7 @@ def bisected(rows, place, codes, nodes, count, start, level, closed):
                 cells, places = _room(cells, 2 * n), _room(places, 2 * n)
             if 2 * count > len(table):
                 table = _larger(table)
-            count = _halved(cells, places, i, n, table, count)
+            count = _halved(cells, places, i, n, table, count, parent, corners, order)
             n += 1
         else:
             i += 1
@@ -65,7 +66,7 @@ def bisected(rows, place, codes, nodes, count, start, level, closed):
                 if 2 * count > len(table):
                     table = _larger(table)
                 before = count
-                count = _halved(cells, places, i, n, table, count)
+                count = _halved(cells, places, i, n, table, count, parent, corners, order)
                 again |= count > before
                 n += 1
             if c == 2 or not coarse:
@@ -76,7 +77,7 @@ def bisected(rows, place, codes, nodes, count, start, level, closed):
     return cells[order], places[order], known[by_code, 0], known[by_code, 1], count
 
 
-@inlined
+@called
 def _wanted(start, level, given, levels):
     """True if a deeper level is wanted in the interval of a cell."""
     k = np.searchsorted(given, start, side="right") - 1
@@ -88,30 +89,36 @@ def _wanted(start, level, given, levels):
     return False
 
 
-@inlined
-def _halved(cells, places, i, n, table, count):
-    """Put the halves of cell i into the rows i and n; the number of nodes after it."""
+@called
+def _halved(cells, places, i, n, table, count, old, corners, order):
+    """Put the halves of cell i into the rows i and n; the number of nodes after it.
+
+    ``old`` (c + 5,), ``corners`` (c + 1, c) and ``order`` (c,) are room.
+    """
     c = places.shape[1]
     one, two = cells[i, 0], cells[i, 1]
     middle, count = _middle(table, _code(one, two), count)
-    old, corners = cells[i].copy(), np.empty((c + 1, c))
-    corners[:c] = places[i]
-    corners[c] = (corners[0] + corners[1]) / 2.0
+    for k in range(c + 5):
+        old[k] = cells[i, k]
+    for k in range(c):
+        for j in range(c):
+            corners[j, k] = places[i, j, k]
+        corners[c, k] = (corners[0, k] + corners[1, k]) / 2.0
     level = old[c + 4] + 1
-    order = np.empty(c, np.int64)
     for side in range(2):
         at = i if side == 0 else n
         first, second, flag = _child(old, side, c, order)
         for k in range(c):
             cells[at, k] = middle if order[k] == c else old[order[k]]
-            places[at, k] = corners[order[k]]
+            for j in range(c):
+                places[at, k, j] = corners[order[k], j]
         cells[at, c], cells[at, c + 1], cells[at, c + 2] = first, second, flag
         cells[at, c + 3] = old[c + 3] + side * (np.int64(1) << (DEPTH - level))
         cells[at, c + 4] = level
     return count
 
 
-@inlined
+@called
 def _child(old, side, c, order):
     """Fill the ``order`` (c,) of the corners of the half with corner ``side``, c for the middle; its marks and flag.
 
@@ -134,7 +141,7 @@ def _child(old, side, c, order):
     return (3 if planar and flagged else 2), 2, (1 if planar and not flagged else 0)
 
 
-@inlined
+@called
 def _has_middle(cells, i, c, table):
     """True if an edge of cell i has a middle."""
     for k in range(c):
@@ -155,7 +162,7 @@ def _greatest(cells, n, c, count):
     return out
 
 
-@inlined
+@called
 def _too_coarse(cells, i, c, greatest):
     """True if bar i shares a node with one that was finer by two levels or more."""
     near = 0
@@ -165,13 +172,13 @@ def _too_coarse(cells, i, c, greatest):
     return near > cells[i, c + 4] + 1
 
 
-@inlined
+@called
 def _code(one, two):
     """Code of an edge, the same in both directions."""
     return (min(one, two) << SHIFT) + max(one, two)
 
 
-@inlined
+@called
 def _slot(table, code):
     """Place of a code in the table, or the free one where it belongs."""
     mask = len(table) - 1
@@ -181,7 +188,7 @@ def _slot(table, code):
     return at
 
 
-@inlined
+@called
 def _middle(table, code, count):
     """Node in the middle of an edge, and the number of nodes with it."""
     at = _slot(table, code)
@@ -215,5 +222,7 @@ def _larger(table):
 def _room(values, size):
     """Copy of an array with ``size`` rows."""
     out = np.empty((size, *values.shape[1:]), values.dtype)
-    out[: len(values)] = values
+    to, given = out.ravel(), values.ravel()
+    for k in range(len(given)):
+        to[k] = given[k]
     return out

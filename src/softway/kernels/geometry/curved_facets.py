@@ -81,7 +81,7 @@ def feet(x: Array, powers: IntArray, terms: Array, start: Array, low: float, hig
     """
     limit = STEP if powers.sum(axis=1).max() > 1 else np.inf
     out = np.clip(start, low, high)
-    _find(x, powers, terms, out, low, high, limit, np.empty((6, len(x))))
+    _find(np.ascontiguousarray(x), powers, terms, out, low, high, limit, np.empty((6, len(x))))
     return out
 
 

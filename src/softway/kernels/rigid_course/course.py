@@ -145,7 +145,7 @@ def march_rows(bodies, joints, springs, motion, space, course, extent, h, first,
     for slab in range(first, total):
         row = slab // course.every
         scale = reach(motion.place, motion.velocity, bodies.gravity, extent, h)
-        done, used = march_slabs(bodies, joints, springs, motion, space, h, 1, scale, course.told[row])
+        done, used = march_slabs(bodies, joints, springs, motion, space, h, np.int64(1), scale, course.told[row])
         if done == 0:
             return slab
         course.counts[row, ITERATIONS] += used

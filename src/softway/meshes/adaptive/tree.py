@@ -80,9 +80,9 @@ def _bisected(
     keys = cells.flag, cells.start, cells.level
     rows = np.column_stack([cells.corners, cells.apex, *keys]).astype(np.int64, copy=False)
     place = np.ascontiguousarray(cells.place)
-    wanted = np.asarray(level, dtype=np.int64)
+    start, wanted = np.array(given.start), np.array(level, dtype=np.int64)  # compiled once: writable ones and others
     out, places, codes, nodes, count = bisected(
-        rows, place, middles.codes, middles.nodes, middles.count, given.start, wanted, closed
+        rows, place, middles.codes, middles.nodes, middles.count, start, wanted, closed
     )
     c = place.shape[1]
     found = TreeCells(

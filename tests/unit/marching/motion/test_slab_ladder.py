@@ -135,6 +135,7 @@ def test_where_nothing_estimates_the_error_automatic_slabs_stay(given: dict[str,
     assert lengths(steps) == pytest.approx(np.ones(len(steps)))
 
 
+@pytest.mark.slow
 def test_automatic_slabs_are_as_accurate_as_those_of_the_wave() -> None:
     """A beam of linear cells that gravity sets swinging, against one of half the cells and half the slabs."""
     end, tips = 0.25, []
