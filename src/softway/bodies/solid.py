@@ -125,7 +125,9 @@ def _require_densities(material: Material | Mapping[str, Material], density: Map
         raise InputError("density", "densities by regions, but one law for the body", "one density, or laws by regions")
     for name in material:
         if name not in density:
-            raise InputError(f"density.{name}", "missing", "a density for each region with a law, or one for the body")
+            problem, known = f"missing: the region {name!r} has a law", ", ".join(density)
+            remedy = f"a density for each region with a law (there are those of: {known}), or one for the body"
+            raise InputError(f"density.{name}", problem, remedy)
     for name in density:
         if name not in material:
             problem, known = f"{name!r} is no region with a law", ", ".join(material)
