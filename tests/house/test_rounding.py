@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from processors import LEFT
 from sources import Documented, Source, read_sources
 
 EXACT = 2**20
@@ -84,3 +85,8 @@ def test_the_rules_find_what_they_forbid(tmp_path: Path) -> None:
     )
     (found,) = read_sources(tmp_path)
     assert len(list(compared(found))) == 2 and len(list(clocked(found))) == 1 and len(list(shown(found))) == 1
+
+
+def test_what_is_not_tried_on_other_processors_is_there_and_in_order(root: Path) -> None:
+    assert all((root / "tests" / place).exists() for place in LEFT)
+    assert list(LEFT) == sorted(LEFT)
