@@ -52,6 +52,7 @@ DOORS = {
     "mmgpy": ("softway.adaptivity.new_cells.mmg",),
     "mpi4py": ("softway.ranks.mpi",),
     "warp": ("softway.kernels.device.door",),
+    "threadpoolctl": ("softway.solve.linear.blas_threads",),
     "petsc4py": ("softway.ranks.petsc",),
     "mujoco": ("softway.mechanisms.robots.robot_file",),
     "gmsh": (),

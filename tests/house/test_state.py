@@ -45,9 +45,10 @@ CACHES = (
     "softway.meshes.element",
     "softway.contact.surfaces.facet_geometry",
     "softway.apps.verify.*",
+    "softway.solve.linear.blas_threads",
 )
-"""Modules that may keep what functions of a few short arguments found: kernels, tables of cells; in the processes of
-the suite its marches."""
+"""Modules that may keep what functions of a few short arguments found: kernels, tables of cells, libraries that are
+loaded; in the processes of the suite its marches."""
 KEPT = (ContextVar, type(Lock()), type(RLock()), Event, deque, bytearray)
 HOLDERS = {
     "softway.kernels.jit.threads._CHOSEN": "see above",

@@ -30,6 +30,7 @@ from softway.marching.state.step_control import Crushing, above, crushing, may_g
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.solve.equations.energy_balance import SLIGHT
+from softway.solve.linear.blas_threads import one_blas_thread
 from softway.solve.operators.operator_memory import OperatorMemory
 
 log = logging.getLogger(__name__)
@@ -48,7 +49,7 @@ def groups(stepper: Stepper, march_state: MarchState) -> Iterator[Step | StepGro
     until, memory, before = settings.until, march_state.memory, split_states(model, march_state.state)
     cells, compiled = crushing(model, stepper.method), compiled_model(stepper, settings, span)
     stored = stored_model(stepper, settings, span)
-    resident, shapes = resident_model(stepper, settings), watched_cells(model)
+    resident, shapes, alone = resident_model(stepper, settings), watched_cells(model), one_blas_thread()
     while march_state.state.time < until - 1e-9 * span:
         some = None if compiled is None else _batch(stepper, compiled, march_state, before, memory)
         some = some if stored is None else next_stored(stored, march_state, before, memory)
@@ -61,7 +62,8 @@ def groups(stepper: Stepper, march_state: MarchState) -> Iterator[Step | StepGro
             continue
         length = slab_length(stepper.ends, march_state)
         require_progress(stepper, march_state, length)
-        found = accept_slab(stepper, march_state, length, memory)
+        with alone():
+            found = accept_slab(stepper, march_state, length, memory)
         if memory.choice is None and found.memory.choice is not None:
             log.info("operator %s: %s", found.memory.choice.operator, found.memory.choice.reason)
         found, bad = _looked_at(shapes, march_state, found)
