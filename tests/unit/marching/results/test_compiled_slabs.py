@@ -180,7 +180,7 @@ def test_both_ways_agree(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     fast = marched(model, step, count)
     monkeypatch.setattr(SLABS, "compiled_model", lambda *of: None)
     slow = marched(model, step, count)
-    assert compiled(fast) > (0.3 if name == "all bars" else 0.5) * count and compiled(slow) == 0
+    assert compiled(fast) > (0.25 if name == "all bars" else 0.5) * count and compiled(slow) == 0
     assert {e.kind for s in slow for e in s.events} >= {"touch", "release"}
     energy = max(s.ledger.energy_kinetic + s.ledger.energy_strain for s in slow)
     push = max(np.abs(s.march_state.state.start.force).max() for s in slow)
