@@ -141,6 +141,16 @@ def test_what_is_written_is_shown_where_it_is_wrong(case, scenario, capsys):
     assert told is None or told in " ".join(capsys.readouterr().err.split())
 
 
+def test_a_shape_in_place_of_its_tool_is_answered_with_the_tool(scenario, capsys):
+    scenario.write_text(BLOCK.replace('"Tool"\nshape = { kind = "HalfSpace",', '"HalfSpace"\n# {'), encoding="utf-8")
+    assert main(["check", str(scenario), "--quiet"]) == 2
+    told = " ".join(capsys.readouterr().err.split())
+    assert (
+        """bodies.floor.kind: 'HalfSpace' is unknown try: kind = "Tool" with shape = { kind = "HalfSpace", ... }"""
+        in told
+    )
+
+
 def test_a_name_without_its_ending_is_answered_with_the_file(scenario, capsys):
     assert main(["run", str(scenario.with_suffix(""))]) == 2
     assert "try: block.toml, which exists" in " ".join(capsys.readouterr().err.split())

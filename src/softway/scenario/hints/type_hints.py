@@ -121,6 +121,22 @@ def nearest(word: str, known: Iterable[str]) -> str:
     return f"{guess}known: {', '.join(words) or 'none'}"
 
 
+def holder(word: str, known: Mapping[str, type]) -> str:
+    """Remedy for a kind that belongs into a field of a ``known`` one: which; empty if there is none.
+
+    Examples
+    --------
+    >>> from softway.bodies.solid import Tool
+    >>> holder("HalfSpace", {"Tool": Tool}), holder("Ball", {"Tool": Tool})
+    ('kind = "Tool" with shape = { kind = "HalfSpace", ... }', '')
+    """
+    for name, cls in known.items():
+        for key in inputs(cls):
+            if word in kinds(members(Hint.of(hints(cls)[key], None).type)):
+                return f'kind = "{name}" with {key} = {{ kind = "{word}", ... }}'
+    return ""
+
+
 def is_tuple(hint: Any) -> bool:
     """True if the hint is a tuple."""
     return get_origin(hint) is tuple or hint is tuple

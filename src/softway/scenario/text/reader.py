@@ -10,6 +10,7 @@ from softway.meshes.generators.recipes import MeshFile
 from softway.scenario.hints.type_hints import (
     Hint,
     hints,
+    holder,
     inputs,
     is_mapping,
     is_tuple,
@@ -172,7 +173,8 @@ class Reader:
         if isinstance(name, str) and ":" in name and protocols:
             return self._own(value, self.modules.law(name, protocols, f"{where}.kind"), where, unit)
         if not isinstance(name, str) or name not in known:
-            raise InputError(f"{where}.kind", f"{name!r} is unknown", nearest(str(name), known))
+            remedy = holder(str(name), known) or nearest(str(name), known)
+            raise InputError(f"{where}.kind", f"{name!r} is unknown", remedy)
         return self._object(value, known[name], where, unit)
 
     def _own(self, value: Mapping[str, Any], cls: type, where: str, unit: str | None) -> Any:
