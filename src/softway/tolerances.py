@@ -28,6 +28,9 @@ KEEP_EDGES_AFTER = 6
 """Iterations after which nodes and edges keep their facets and edges where all edges have rows."""
 KEEP_FACETS_AFTER = 15
 """Number of iterations after which nodes are kept on their facets: a node between two facets would alternate."""
+EXPONENT = 60
+"""Power of two to which the greatest entries of matrices and right-hand sides in single precision are brought: their
+products do not overflow."""
 INDEPENDENT = 1e-13
 """Least eigenvalue, for each of them, of the products of unit differences of residuals that is used in mixing."""
 DECIDED = 0.5

@@ -7,9 +7,8 @@ import numpy as np
 from softway.kernels.jit.by_address import ARGUMENTS, call_library
 from softway.kernels.jit.compilation import called
 from softway.kernels.slab.band import solve_spread
+from softway.tolerances import EXPONENT
 
-GREAT = 60
-"""Exponent to which right-hand sides are brought, as in :mod:`softway.solve.linear.power_scaling`."""
 MOST = 1000
 """Greatest exponent: ``2^MOST`` is a number."""
 
@@ -29,7 +28,7 @@ def solve(down, up, pivot, single, library, x):
         most = max(most, abs(x[i]))
     if not (most > 0.0 and most < np.inf):
         return
-    power = min(GREAT - math.frexp(most)[1], MOST)
+    power = min(EXPONENT - math.frexp(most)[1], MOST)
     there, back = math.ldexp(1.0, power), math.ldexp(1.0, library[ARGUMENTS + 1] - power)
     for i in range(len(x)):
         single[0, i] = x[i] * there

@@ -16,15 +16,13 @@ from softway.kernels.slab.works import WORKS
 from softway.marching.slab.compiled_model import CompiledModel, SlabTables
 from softway.marching.slab.rows.driven import drives
 from softway.marching.slab.rows.friction import friction_table
-from softway.marching.slab.slab_batch import AHEAD, TOGETHER, SlabBatch
-from softway.marching.state.march_state import EnergyAccount, MarchState
+from softway.marching.slab.slab_batch import SlabBatch, most_slabs, told
+from softway.marching.state.march_state import MarchState
 from softway.marching.state.model_state import ModelState
 from softway.model.model import Model
 from softway.model.scene import State
 from softway.solve.operators.operator_memory import USUAL, WORN, OperatorMemory
 
-NUMBERS = 1_000_000
-"""Greatest number of numbers of the states in a call."""
 SAME = 1e-9
 """Relative difference of the lengths of slabs that have the same operator."""
 
@@ -70,19 +68,6 @@ def _called(model: Model, tables: SlabTables, course: Course, march_state: March
     optional = ((surfaces, apart), (changing, driven), (rubs, rubbing))
     parts = np.array([0 if own is None else part().address for own, part in optional])
     return int(slabs(places, parts, tolerance, told(march_state.account), len(course.time) - 1))
-
-
-def told(account: EnergyAccount) -> Array:
-    """Energy at the start, external work, error and dissipated energy (4,), for the kernels [J]."""
-    start = account.energy_start - account.remeshing
-    return np.array([start, account.work_external, account.energy_error, account.dissipation])
-
-
-def most_slabs(march_state: MarchState, span: float) -> int:
-    """Greatest number of slabs of the length ``span`` [s] in a call; less than one at the end of a march."""
-    now = march_state.state
-    left = (march_state.settings.until - now.time) / span - AHEAD
-    return int(min(left, TOGETHER, max(1, NUMBERS // (8 * now.start.displacement.size))))
 
 
 def _times(compiled: CompiledModel, march_state: MarchState, span: float, end_after: Callable[[float], float]) -> Array:

@@ -21,6 +21,8 @@ from softway.solve.operators.operator_memory import OperatorMemory
 
 TOGETHER = 256
 """Greatest number of slabs in a batch."""
+NUMBERS = 1_000_000
+"""Greatest number of numbers of the states in a call."""
 AHEAD = 2.0
 """Slabs at the end of a march that are in no batch: the last one ends at a given instant."""
 
@@ -215,3 +217,16 @@ def _contractions(sums: Array, iterations: tuple[int, ...]) -> tuple[float, ...]
     """Mean ratios of successive changes, from the sums of slabs and their numbers of iterations."""
     changes = sums[:, (FIRST, LAST)].tolist()
     return tuple(contraction(first, last, n) for (first, last), n in zip(changes, iterations, strict=True))
+
+
+def told(account: EnergyAccount) -> Array:
+    """Energy at the start, external work, error and dissipated energy (4,), for the kernels [J]."""
+    start = account.energy_start - account.remeshing
+    return np.array([start, account.work_external, account.energy_error, account.dissipation])
+
+
+def most_slabs(march_state: MarchState, span: float) -> int:
+    """Greatest number of slabs of the length ``span`` [s] in a call; less than one at the end of a march."""
+    now = march_state.state
+    left = (march_state.settings.until - now.time) / span - AHEAD
+    return int(min(left, TOGETHER, max(1, NUMBERS // (8 * now.start.displacement.size))))

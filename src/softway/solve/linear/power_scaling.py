@@ -12,13 +12,11 @@ import scipy.sparse as sp
 
 from softway.arrays import Array, IntArray, greatest
 from softway.solve.linear.interface import CondensingFactor, Factor, Precision
-
-GREAT = 60
-"""Exponent to which the greatest entry of matrices and right-hand sides is brought: their products do not overflow."""
+from softway.tolerances import EXPONENT
 
 
 def exponent(values: Array) -> int:
-    """Exponent e for which the greatest of the values is about ``2^(GREAT - e)``; zero if all are zero.
+    """Exponent e for which the greatest of the values is about ``2^(EXPONENT - e)``; zero if all are zero.
 
     Examples
     --------
@@ -26,7 +24,7 @@ def exponent(values: Array) -> int:
     (59, 0)
     """
     most = greatest(values)
-    return GREAT - int(np.frexp(most)[1]) if most > 0.0 and np.isfinite(most) else 0
+    return EXPONENT - int(np.frexp(most)[1]) if most > 0.0 and np.isfinite(most) else 0
 
 
 def enlarged(matrix: sp.csc_array, precision: Precision) -> tuple[sp.csc_array, int]:

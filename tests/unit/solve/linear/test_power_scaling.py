@@ -9,7 +9,8 @@ from softway.kernels.slab.solution import solve
 from softway.solve.linear.backends import Pardiso, SuperLU
 from softway.solve.linear.backends.pardiso import solve_call
 from softway.solve.linear.interface import LinearSolver
-from softway.solve.linear.power_scaling import GREAT, PowerScaled, enlarged, exponent
+from softway.solve.linear.power_scaling import PowerScaled, enlarged, exponent
+from softway.tolerances import EXPONENT
 
 EMPTY = np.zeros((0, 0))
 SOLVERS = [SuperLU("single"), Pardiso("single", 1)]
@@ -51,11 +52,11 @@ def test_a_unit_of_mass_changes_no_digit(solver: LinearSolver) -> None:
 def test_the_numbers_stay_normal() -> None:
     """The Cholesky factor of the chain holds powers of its decay: of the matrix itself all are far from 1e-38."""
     matrix, e = enlarged(chain(30, 1e-20), "single")
-    assert 2.0 ** (GREAT - 1) <= matrix.data.max() < 2.0**GREAT
-    column = np.linalg.solve(matrix.toarray(), 2.0**GREAT * np.eye(30)[:, 0])
+    assert 2.0 ** (EXPONENT - 1) <= matrix.data.max() < 2.0**EXPONENT
+    column = np.linalg.solve(matrix.toarray(), 2.0**EXPONENT * np.eye(30)[:, 0])
     assert column.min() > np.finfo(np.float32).tiny
     assert enlarged(chain(30, 1e-20), "double")[1] == 0
-    assert e > GREAT
+    assert e > EXPONENT
 
 
 @pytest.mark.parametrize("values", [np.zeros(3), np.zeros(0), np.array([np.inf]), np.array([np.nan, 1.0])])

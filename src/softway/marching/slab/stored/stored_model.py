@@ -27,7 +27,7 @@ from softway.marching.rules.equilibrated import EndForceContact, Equilibrated
 from softway.marching.slab.compiled_model import answers_of, bodies_of, operator_of, rows_of
 from softway.marching.slab.rows.friction import every_row, without_friction
 from softway.marching.slab.slab_step import Stepper
-from softway.marching.slab.stored.library_factor import LibraryFactor, way_of
+from softway.marching.slab.stored.solving_factor import SolvingFactor, way_of
 from softway.marching.state.march_state import Settings
 from softway.model.model import Model
 from softway.model.time_weight import EndPeaks, moments
@@ -63,7 +63,7 @@ class FrozenFactor:
     ``operators`` keeps that of the last closed rows, ``answers`` the answers (N,) to impulses on rows.
     """
 
-    found: LibraryFactor
+    found: SolvingFactor
     gradient: Array
     operators: dict[bytes, Operator | None] = field(default_factory=dict)
     answers: dict[int, Array] = field(default_factory=dict)
@@ -84,7 +84,7 @@ class StoredModel:
     contact_rows: ContactRows
     rows: Rows
     solids: Tables
-    factored: Callable[[sp.csc_array], LibraryFactor | None]
+    factored: Callable[[sp.csc_array], SolvingFactor | None]
     watched: WatchedCells
     turning: NodalRotation
     slopes: tuple[IntArray, IntArray, Array]
@@ -101,7 +101,7 @@ class StoredModel:
 
     def operator(
         self, origin: OperatorOrigin, closed: BoolArray, mixed: bool
-    ) -> tuple[Operator, Turning, LibraryFactor] | None:
+    ) -> tuple[Operator, Turning, SolvingFactor] | None:
         """Operator with the rows ``closed`` (m,), its rotation and its factor; None if there is none.
 
         Rows are solved for in axes that turn where they are ``mixed``, in every slab anew: with a factor of a library

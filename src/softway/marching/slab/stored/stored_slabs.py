@@ -6,8 +6,8 @@ from softway.arrays import Array
 from softway.kernels.slab.stored.march import stored_slabs
 from softway.kernels.slab.stored.tables import BALANCE, DEAR, Search
 from softway.kernels.slab.tables import Course
-from softway.marching.slab.compiled_slabs import most_slabs, new_course, new_work, told
-from softway.marching.slab.slab_batch import SlabBatch
+from softway.marching.slab.compiled_slabs import new_course, new_work
+from softway.marching.slab.slab_batch import SlabBatch, most_slabs, told
 from softway.marching.slab.stored.stored_model import StoredModel, Tables
 from softway.marching.state.march_state import MarchState
 from softway.meshes.cell_shapes import FLAT

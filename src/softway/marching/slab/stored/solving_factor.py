@@ -20,7 +20,7 @@ LARGEST = 16_000
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class LibraryFactor:
+class SolvingFactor:
     """Factor for compiled slabs; ``call`` is that of the library which made it, None for one in a band."""
 
     factor: SlabFactor
@@ -43,7 +43,7 @@ class Way:
     """
 
     place: IntArray
-    factored: Callable[[sp.csc_array], LibraryFactor | None]
+    factored: Callable[[sp.csc_array], SolvingFactor | None]
 
 
 def way_of(matrix: sp.csr_array) -> Way | None:
@@ -56,12 +56,12 @@ def way_of(matrix: sp.csr_array) -> Way | None:
     return Way(np.arange(size), partial(_by_library, solver, [])) if isinstance(solver, Pardiso) else None
 
 
-def _banded(order: BandOrder, matrix: sp.csc_array) -> LibraryFactor | None:
+def _banded(order: BandOrder, matrix: sp.csc_array) -> SolvingFactor | None:
     found = banded_factor(sp.csr_array(matrix), order)
-    return None if found is None else LibraryFactor(found)
+    return None if found is None else SolvingFactor(found)
 
 
-def _by_library(solver: Pardiso, analyses: list[Analysis], matrix: sp.csc_array) -> LibraryFactor | None:
+def _by_library(solver: Pardiso, analyses: list[Analysis], matrix: sp.csc_array) -> SolvingFactor | None:
     """Factor by PARDISO; ``analyses`` keeps its symbolic work for the pattern."""
     try:
         if not analyses:
@@ -72,4 +72,4 @@ def _by_library(solver: Pardiso, analyses: list[Analysis], matrix: sp.csc_array)
     if call is None:
         return None
     empty = np.zeros((0, 0))
-    return LibraryFactor(SlabFactor(empty, empty, np.ones(matrix.shape[0]), call.single, call.library), call)
+    return SolvingFactor(SlabFactor(empty, empty, np.ones(matrix.shape[0]), call.single, call.library), call)
