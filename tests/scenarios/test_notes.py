@@ -27,6 +27,7 @@ def measured(problem: str) -> list[str]:
     return shares + factors + re.findall("one cell thick", problem)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
 def test_the_comment_explains_each_note_of_the_check(file: Path) -> None:
     """It names the body, or the contact, and what a note measures; without notes there is no explanation."""

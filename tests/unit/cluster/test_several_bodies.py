@@ -68,6 +68,7 @@ CASES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", CASES)
 def test_two_bodies_have_the_same_bits_on_any_number_of_ranks_and_move_as_on_one_process(name: str) -> None:
     made, given = CASES[name]

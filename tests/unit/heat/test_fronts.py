@@ -151,6 +151,7 @@ def stefan(number: float, times: Array) -> Array:
     return np.asarray(2.0 * root * np.sqrt(60.0 / (240.0 * 7300.0) * times))
 
 
+@pytest.mark.slow
 @pytest.mark.few(2)
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize("number", [0.1, 1.0])
@@ -190,6 +191,7 @@ def test_without_capacity_all_heat_of_a_flux_is_the_fronts(capacity: float, star
         np.testing.assert_allclose(step.temperature["b"], fall, rtol=0.0, atol=2e-2)
 
 
+@pytest.mark.slow
 @pytest.mark.few(4)
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize("cells", [2, 4, 5])

@@ -97,6 +97,7 @@ TABLE = heat.TemperatureTable(temperatures=(250.0, 350.0), values=(1.0, 4.0))
 STEEP = heat.Conduction(conductivity=TABLE, capacity=TABLE)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", [FELT, STEEP, ICE], ids=["constant", "table", "melting"])
 @pytest.mark.parametrize("cell", ["bar2", "tri6", "quad9", "tet10"])
 def test_regions_of_one_law_are_one_body(cell: str, law: heat.Conduction) -> None:

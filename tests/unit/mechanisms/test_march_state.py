@@ -40,6 +40,7 @@ def numbers(step: MechanismStep) -> list[bytes]:
     return [np.ascontiguousarray(a).tobytes() for a in arrays]
 
 
+@pytest.mark.slow
 @pytest.mark.few(4)
 @pytest.mark.parametrize("name", sorted(CASES))
 def test_the_rest_of_a_march_has_the_same_bits(name):

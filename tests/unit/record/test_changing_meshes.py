@@ -97,6 +97,7 @@ def sizes(cells) -> np.ndarray:
     return 0.5 * np.cross(x, np.roll(x, -1, axis=1)).sum(axis=1)[:, 2]
 
 
+@pytest.mark.slow
 def test_frames_have_their_own_cells(run):
     """The cells of every frame fill the body; there are as many nodes as the history says."""
     fields, history = run.fields, run.history
@@ -205,6 +206,7 @@ def test_the_space_time_mesh_has_the_nodes_of_every_frame(bar):
     assert (track[:, 1] > track[:, 0]).all() and low == track.min() and high == track.max()
 
 
+@pytest.mark.slow
 @pytest.mark.few(2)
 def test_pictures_and_films(run, tmp_path):
     assert main(["plot", str(run.path), "--out", str(tmp_path / "picture.png")]) == 0
@@ -214,6 +216,7 @@ def test_pictures_and_films(run, tmp_path):
     assert drawing is not None and drawing.end == pytest.approx(run.history["time"][-1])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["bar", "disc"])
 def test_the_page_shows_each_mesh(runs, name):
     pytest.importorskip("trame")
@@ -234,6 +237,7 @@ def test_the_page_shows_each_mesh(runs, name):
     assert MESH not in {event["kind"] for event in events_of(run)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("name", "after"), [("bar", 3), ("bar", 20), ("disc", 13), ("quads", 10)])
 def test_a_resumed_run_has_the_same_bits(runs, tmp_path, name, after):
     seen = itertools.count(1)

@@ -81,6 +81,7 @@ def run(runs):
     return runs["new"]
 
 
+@pytest.mark.slow
 def test_frames_have_their_cells_and_the_displacement_of_the_matter(run) -> None:
     fields = run.fields
     assert len(set(fields.geometries)) >= 3 and changes(run)
@@ -149,6 +150,7 @@ def test_pictures_films_and_the_page(run, tmp_path) -> None:
         assert made.solids.skin.bounds[:2] == pytest.approx((x.min(), x.max()), abs=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("after", [5, 9])
 def test_a_resumed_run_has_the_same_bits(runs, tmp_path, after) -> None:
     seen = itertools.count(1)
@@ -188,6 +190,7 @@ def triangles(folder) -> sw.Scenario:
     return sw.load(file)
 
 
+@pytest.mark.slow
 def test_a_run_with_new_cells(renewed) -> None:
     """Events, audit and frames, whose matter came from the body at the start."""
     assert renewed.status == "done"
@@ -217,6 +220,7 @@ def test_probes_with_new_cells(renewed) -> None:
     assert history["speed"][1:] == pytest.approx(-1.0, abs=1e-9)
 
 
+@pytest.mark.slow
 def test_a_resumed_run_with_new_cells(renewed, tmp_path) -> None:
     """Stopped after the change of the cells, it goes on with the same bits."""
     changed = int(np.flatnonzero(np.diff(renewed.history["mesh.nodes"]))[0]) + 1

@@ -56,6 +56,7 @@ CELLS = {"quad4": 0.01, "tri3": 0.01, "quad8": 0.002, "quad9": 0.002, "tri6": 0.
 """Error of the mean pressure by the cells of the rings."""
 
 
+@pytest.mark.slow
 @pytest.mark.few(8)
 @pytest.mark.parametrize("facets", [(40, 32), (32, 40), (20, 32)])
 @pytest.mark.parametrize("cell", CELLS)

@@ -31,6 +31,7 @@ def test_a_gap_with_gas_and_radiation(dim: int, method: object) -> None:
     assert peers.radiating(dim, method=method) == pytest.approx(peers.radiated(), rel=1e-8)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("pressure", "hardness", "method", "within"),
     [

@@ -55,6 +55,7 @@ def decay(conductance: float, time: float = 10.0) -> float:
     return 100.0 * float(np.exp(-2.0 * conductance * time / (RHO * C * SIDE)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("dim", "method"),
     [(1, None), (2, None), (2, NodeToSurface()), (2, NodeToSurface(nodes="both")), (3, DualMortar())],
@@ -141,6 +142,7 @@ def braked(tool_temperature: float | None) -> sw.Step:
     return last
 
 
+@pytest.mark.slow
 def test_friction_heat_of_a_tool_has_the_entropy_of_its_temperature() -> None:
     """The solid, some hundredths of a kelvin warmer than 300 K, takes 0.7 of the heat; the tool 0.3, at 250 K."""
     with_one, without = braked(250.0), braked(None)
@@ -150,6 +152,7 @@ def test_friction_heat_of_a_tool_has_the_entropy_of_its_temperature() -> None:
     assert with_one.ledger.heat.entropy - without.ledger.heat.entropy == pytest.approx(0.3 * given / 250.0, rel=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("conductance", [None, 200.0])
 def test_heat_passes_a_tie(conductance: float | None) -> None:
     """A wall of two layers between two temperatures: freely, or with the fall across the glue."""

@@ -50,6 +50,7 @@ def test_a_solid_freezes_as_a_conductor_does() -> None:
     assert abs(moving[-1].ledger.heat.error) < 1e-11 * abs(moving[-1].ledger.heat.brought)
 
 
+@pytest.mark.slow
 def test_ice_that_is_free_expands_without_stress() -> None:
     left = sw.bodies.Fixed(on="left", components="x"), sw.bodies.Fixed(on="bottom", components="y")
     for mesh, supports in ((sw.meshes.Interval(length=0.004, cells=4), left[:1]), (CELL, left)):

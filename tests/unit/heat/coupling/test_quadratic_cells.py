@@ -91,6 +91,7 @@ def test_a_source_warms_all_nodes_evenly(cell: str) -> None:
         np.testing.assert_allclose(last.temperature["b"], THETA + 50.0, rtol=1e-13)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("cell", CELL)
 def test_a_free_body_of_curved_cells_expands_without_stress(cell: str, law: str) -> None:
@@ -127,6 +128,7 @@ def test_a_compression_without_conduction_heats_all_nodes_equally(cell: str) -> 
     assert rise.min() > 0.5 and np.ptp(rise) < 1e-12 * rise.max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cell", CELL)
 def test_dissipation_heats_all_nodes_equally(cell: str) -> None:
     metal = sw.laws.J2(E=100.0, nu=0.3, yield_stress=1.0)

@@ -145,6 +145,7 @@ def crept(steps: int, temperature: float, load: float = 1e-6) -> tuple[np.ndarra
     return np.array(found)[:, 0], np.array(found)[:, 1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("temperature", "factor"), [(320.0, 1.0), (560.0, 0.6)])
 def test_a_bar_of_spring_and_dashpot_creeps_by_the_modulus_of_its_temperature(
     temperature: float, factor: float

@@ -74,6 +74,7 @@ def test_the_energy_loss_of_the_balanced_jump(shop, mass: MassRule, cells: int, 
     assert event.impulse * 1.0 / 2.0 == pytest.approx(motion.last.ledger.dissipation, rel=1e-9)
 
 
+@pytest.mark.slow
 @lossy
 def test_the_energy_error_vanishes_with_the_slab_length(shop, rule: ImpactRule) -> None:
     coarse, fine = (throw(shop, rule, gap=0.103, step=h, until=2.2).energy_error for h in (0.04, 0.01))
@@ -180,6 +181,7 @@ def test_the_balanced_jump_converges_to_the_motion_of_the_mesh(shop) -> None:
     assert np.log2(errors[0] / errors[2]) / 2.0 == pytest.approx(2.0, abs=0.3)
 
 
+@pytest.mark.slow
 @pytest.mark.few(6)
 @lossy
 @pytest.mark.parametrize("weight", [Momentum(), Collocation(), EndPeaks(theta=0.7), EndPeaks(theta=1.0)], ids=str)

@@ -90,6 +90,7 @@ def met(cell: str = "tri3") -> sw.Scene:
     return sw.Scene(bodies={"ball": ball, "block": block}, contacts=(contact,))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("cell", "names"),
     [("tri3", ("ball", "block")), ("tri3", ("ball",)), ("quad4", ("ball", "block")), ("quad4", ("ball",))],

@@ -42,6 +42,7 @@ def test_a_rigid_disc_that_hits_a_solid(mu: float) -> None:
     assert (ledgers[-1].dissipation > 1e-4 * energy) == (mu > 0.0)
 
 
+@pytest.mark.slow
 def test_a_shock_with_bulk_viscosity() -> None:
     bar = sw.Solid(
         mesh=sw.meshes.Interval(length=1.0, cells=10), material=sw.LinearElastic(E=1.0, nu=0.0), density=1.0,
@@ -56,6 +57,7 @@ def test_a_shock_with_bulk_viscosity() -> None:
     assert steps[-1].ledger.dissipation == pytest.approx(exact.ledger.dissipation, rel=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cell", ["tri3", "quad4"])
 @pytest.mark.parametrize(
     "law",

@@ -30,6 +30,7 @@ def found(request: pytest.FixtureRequest) -> AdaptedMesh:
     return adapted(request.param, 3)
 
 
+@pytest.mark.slow
 def test_no_cell_is_coarser_than_wanted_and_the_leaves_cover_the_base(found: AdaptedMesh) -> None:
     want = some_levels(found.base.n_cells, 3)
     assert (found.leaves.level >= want[found.leaves.root]).all()
@@ -92,6 +93,7 @@ def test_the_mesh_has_no_history(found: AdaptedMesh) -> None:
     assert np.array_equal(cells_of(direct.mesh), cells_of(again.mesh))
 
 
+@pytest.mark.slow
 def test_levels_of_the_leaves_give_the_same_mesh(found: AdaptedMesh) -> None:
     again = refined(found.base, found.leaves.level, found.leaves)
     assert same(found.leaves, again.leaves)

@@ -71,6 +71,7 @@ def test_inertia_that_the_glue_loses_is_noted(old: str, new: str, light: int) ->
         assert f"{light} of the 12 nodes in the glue have no inertia" in notes[0].problem
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("asks", [40, 200])
 def test_a_cancelled_run_is_resumed_with_the_same_bits(whole: sw.Run, tmp_path: Path, asks: int) -> None:
     """Before the touch and during it, from the text that the run folder keeps."""

@@ -28,6 +28,7 @@ def run(fake, tmp_path):
     return record_run(fake.steps(), fake.opening(), RunFolder(out=tmp_path / "run"), title="Made up")
 
 
+@pytest.mark.slow
 @pytest.mark.few(5)
 def test_pictures_of_every_kind_of_body(run):
     pytest.importorskip("matplotlib")

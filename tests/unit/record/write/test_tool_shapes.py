@@ -113,6 +113,7 @@ def test_a_surface_survives_its_file(volume, tmp_path):
     assert run.fields.cells.obstacles(2.0)["floor"].pose.shift.tolist() == [0.0, 0.2, -0.4]
 
 
+@pytest.mark.slow
 @pytest.mark.few(5)
 @pytest.mark.parametrize("shape", SOLID, ids=lambda s: type(s).__name__)
 def test_every_shape_is_drawn_moving(shape, volume, tmp_path):
@@ -121,6 +122,7 @@ def test_every_shape_is_drawn_moving(shape, volume, tmp_path):
     assert picture(run).save(tmp_path / "bodies.png").stat().st_size > 10_000
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", PLANE, ids=lambda s: type(s).__name__)
 def test_every_shape_is_drawn_in_the_plane(shape, plane, tmp_path):
     pytest.importorskip("matplotlib")

@@ -84,6 +84,7 @@ def test_the_softer_body_determines_how_long_a_contact_lasts():
     assert durations == pytest.approx([1.0 / speeds["mat"], 0.2 / speeds["mat"], 0.2 / speeds["head"]])
 
 
+@pytest.mark.slow
 def test_the_scales_of_a_contact_are_those_of_the_nearest_place():
     """A wheel above a plate: its flanks, which face the plate askew, do not count.  Gaps are along the normals of its
     sixteen facets.

@@ -26,6 +26,7 @@ def test_the_history_has_the_lengths_and_the_touch_its_instant() -> None:
     assert len(h) < 0.6 * sw.check(bar()).slabs
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("after", [7, 14, 40])
 def test_a_stopped_run_goes_on_with_the_same_bits(tmp_path: Path, after: int) -> None:
     seen = []

@@ -65,6 +65,7 @@ def test_a_ball_that_bounces_with_spin(law: object) -> None:
     assert abs(one.remeshing) < 1e-10 * 0.005
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("law", [FRICTIONS["slides"], FRICTIONS["grips"]], ids=["slides", "grips"])
 def test_forces_and_states_of_the_rows_pass_over(law: object) -> None:
     steps = list(adaptive_march(dropped(law), {"ball": ADAPT}, until=2.8, step=0.05))
@@ -118,6 +119,7 @@ def test_two_solids_of_which_some_change(cell: str, names: tuple[str, ...]) -> N
     assert impulses(steps) == pytest.approx(impulses(fine), rel=0.02)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("levels", [(1, 2), (2, 1), (2, 3)])
 def test_a_block_on_a_slope_stays(levels: tuple[int, int]) -> None:
     law = sw.laws.Kelvin(E=1.0, nu=0.3, shear_viscosity=0.1)

@@ -52,6 +52,7 @@ def stays_closed(steps: Sequence[sw.Step], speed: float) -> int:
     return count
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("cell", ["tri3", "quad4", "tri6"])
 @pytest.mark.parametrize("rule", [sw.contact.Impulse(), sw.contact.Paper()], ids=["impulse", "paper"])
 def test_a_disc_on_a_floor(cell: str, rule: ImpactRule) -> None:

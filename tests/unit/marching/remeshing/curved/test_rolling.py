@@ -55,6 +55,7 @@ def test_the_centre_stays_at_the_height_of_the_radius(cell: str, cells: int, lev
     assert found.max() < 8.0 * sagitta  # it hops from corner to corner of the fine polygon
 
 
+@pytest.mark.slow
 def test_flat_facets_let_it_sink_to_their_middles() -> None:
     found, _ = heights("tri3", 8, coarse(4, smooth=0.0))
     assert found.min() < -0.8 * RADIUS * (1.0 - np.cos(pi / EDGES))

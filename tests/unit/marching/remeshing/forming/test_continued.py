@@ -23,6 +23,7 @@ def whole() -> list[sw.Step]:
     return list(sw.march(SCENE, **GIVEN))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("after", [-1, 0, 1, 2])
 def test_the_same_bits(whole: list[sw.Step], after: int) -> None:
     """From the states before, at and after the second change."""
@@ -37,6 +38,7 @@ def test_the_matter_has_no_jumps(whole: list[sw.Step]) -> None:
     has_no_jumps(whole, 1e-14)
 
 
+@pytest.mark.slow
 def test_the_matter_goes_as_on_the_mesh_that_stays(whole: list[sw.Step]) -> None:
     """Places of the matter of all nodes against those of the nodes of a mesh that stays, and where matter came from."""
     kept = forged(KEPT, REDUCTION, SLABS, (6, 5))
@@ -90,6 +92,7 @@ def test_damaged_meshes_are_refused(whole: list[sw.Step], name: str) -> None:
             sw.march(SCENE, state=damaged, **GIVEN)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("what", ["no cells", "no equilibrium"])
 def test_meshes_stay_where_none_fits(monkeypatch: pytest.MonkeyPatch, what: str) -> None:
     def refused(*_: object) -> tuple[MarchState, object]:

@@ -48,6 +48,7 @@ def late(time: float) -> bool:
     return time > 0.55 * REDUCTION * HEIGHT
 
 
+@pytest.mark.slow
 def test_a_new_mesh_for_a_slab_that_fails(monkeypatch: pytest.MonkeyPatch) -> None:
     """Limits that no cell reaches ask for no mesh; the slab that fails does, once."""
     failing(monkeypatch, lambda stepper, time: on_first(stepper) and late(time))

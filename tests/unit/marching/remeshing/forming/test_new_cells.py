@@ -129,6 +129,7 @@ def test_auto_takes_new_cells_where_rezoning_is_not_enough() -> None:
         assert (found.mesh.n_cells == on.part("body").mesh.n_cells) is same
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("generator", ["own", "mmg"])
 def test_new_tetrahedra_in_a_march(generator: Generator) -> None:
     if generator == "mmg":
@@ -206,6 +207,7 @@ def kept() -> sw.Step:
     return list(sw.march(press(KEPT), **GIVEN))[-1]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("after", [-1, 0, 1])
 def test_the_same_bits(whole: list[sw.Step], after: int) -> None:
     """From the stored states before, at and after the second change."""

@@ -100,6 +100,7 @@ def varied(mesh: AdaptedMesh, rng: np.random.Generator, name: str) -> AdaptedMes
     return even(refined(mesh.base, levels), [TIE.tags[TIE.bodies.index(name)]])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("names", [("low", "high"), ("low",)], ids=["both", "one"])
 @pytest.mark.parametrize("meshes", CASES, ids=IDS)
 def test_a_wave_passes_a_tie_as_on_the_finest_meshes(
