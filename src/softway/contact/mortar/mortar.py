@@ -18,7 +18,7 @@ from softway.contact.mortar.linear_surface import LinearSurface, linear_surface
 from softway.contact.mortar.overlap import Overlap, overlap
 from softway.contact.mortar.surface_tables import SurfaceTables, surface_tables
 from softway.contact.stencils import Stencils, open_rows
-from softway.kernels.mortar.gap_rows import gap_rows
+from softway.kernels.mortar.rows.gap_rows import gap_rows
 from softway.kernels.mortar.simplices import vector_areas
 
 
@@ -152,6 +152,7 @@ class MortarContact:
             common.pairs(len(size)),
             (below, above),
             tables.heights(x, below, above),
+            size,
             tables.node,
             x[tables.node],
             normal,

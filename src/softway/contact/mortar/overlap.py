@@ -8,6 +8,7 @@ from softway.arrays import Array, IntArray
 from softway.contact.mortar.facet_pairs import FacetPairs
 from softway.contact.mortar.surface_tables import SurfaceTables
 from softway.kernels.mortar.gap_functions import sum_masses
+from softway.kernels.mortar.rows.fading import fade
 from softway.kernels.mortar.segments import segment_overlap
 from softway.kernels.mortar.simplices import keep_near
 from softway.kernels.mortar.tables import Pairs
@@ -62,7 +63,7 @@ class Overlap:
 def overlap(
     tables: SurfaceTables, pairs: FacetPairs, below: Array, above: Array, areas: Array, normal: Array
 ) -> Overlap:
-    """Overlap of the pairs within their limits.
+    """Overlap of the pairs within their limits, times the weights of pairs that hardly face each other.
 
     Parameters
     ----------
@@ -83,4 +84,5 @@ def overlap(
         room = triangle_room(len(slave), len(master))
         count = triangle_overlap(below, slave, above, master, i, j, room, pair, own, cross)
     count = keep_near(below, slave, above, master, areas, i, j, pairs.limit, count, pair, own, cross)
+    count = fade(areas, above, master, i, j, count, pair, own, cross, np.empty((1, below.shape[1])))
     return Overlap(slave=i[pair[:count]], master=j[pair[:count]], own=own[:count], cross=cross[:count])

@@ -5,6 +5,9 @@ from softway.kernels.jit.compilation import uncounted, uncounted_kernel
 DUAL, MEAN = 0.999, 0.5
 """Covered fractions above which the basis is dual, and below which it is the shape functions; mixed in between: a dual
 function on a partly covered facet extrapolates, and would detect overlap where curved surfaces separate."""
+ROUND = 0.2
+"""Last part of the way from dual functions to shape functions, which is round: a row may have its least distance at a
+kink, and the iterates would alternate between its sides."""
 STIFF = 1e-6
 """Penalty of warping, relative to the mass: a partly covered four-node facet does not determine it."""
 
@@ -19,13 +22,35 @@ def dual_bases(mass, coverage, warp, coefficients, own):
 
 
 @uncounted
+def mean_part(coverage):
+    """Part of the shape functions in the basis of a facet of which this fraction is covered: from zero to one, linear
+    but for the last ``ROUND`` of the way, which ends flat.
+    """
+    way = (DUAL - coverage) / (DUAL - MEAN)
+    slope = 1.0 / (1.0 - 0.5 * ROUND)
+    if way <= 0.0 or way >= 1.0:
+        return 0.0 if way <= 0.0 else 1.0
+    left = 1.0 - way
+    return slope * way if left >= ROUND else 1.0 - 0.5 * slope * left * left / ROUND
+
+
+@uncounted
+def mean_change(coverage):
+    """Derivative of the part of the shape functions with respect to the covered fraction."""
+    way = (DUAL - coverage) / (DUAL - MEAN)
+    if way <= 0.0 or way >= 1.0:
+        return 0.0
+    return -min(1.0, (1.0 - way) / ROUND) / ((1.0 - 0.5 * ROUND) * (DUAL - MEAN))
+
+
+@uncounted
 def dual_functions(mass, b, coverage, warp, coefficients, own):
     """Write the coefficients and integrals (b, b) of one facet."""
-    mean, whole = min(max((DUAL - coverage) / (DUAL - MEAN), 0.0), 1.0), 0.0
+    mean, whole = mean_part(coverage), 0.0
     for i in range(b):
         for j in range(b):
             whole += mass[i, j]
-    penalty = STIFF * whole * max(1.0 - coverage, 0.0)
+    penalty = stiffness_of_warping(whole, coverage)
     for i in range(b):
         total = 0.0
         for j in range(b):
@@ -35,7 +60,7 @@ def dual_functions(mass, b, coverage, warp, coefficients, own):
             own[i, j] = mean * mass[i, j]
         own[i, i] += (1.0 - mean) * total
     if mean < 1.0:
-        _invert(coefficients, b)
+        invert(coefficients, b)
     for i in range(b):
         total = 0.0
         for j in range(b):
@@ -46,7 +71,19 @@ def dual_functions(mass, b, coverage, warp, coefficients, own):
 
 
 @uncounted
-def _invert(a, b):
+def stiffness_of_warping(mass, coverage):
+    """Penalty of warping of a facet with the covered ``mass``."""
+    return STIFF * mass * max(1.0 - coverage, 0.0)
+
+
+@uncounted
+def warping_change(own, coverage):
+    """Change of this penalty as the covered mass grows by ``own``."""
+    return STIFF * own * (1.0 - 2.0 * coverage) if coverage < 1.0 else 0.0
+
+
+@uncounted
+def invert(a, b):
     """Replace a positive definite matrix (b, b) by its inverse (Gauss and Jordan)."""
     for p in range(b):
         pivot = 1.0 / a[p, p]

@@ -48,14 +48,14 @@ def _add(whole, piece, a, c, amount, split):
         whole[a, c] += amount
         return
     for i in range(4):
-        one = _shape(i, piece, a)
+        one = shape(i, piece, a)
         if one != 0.0:
             for j in range(4):
-                whole[i, j] += one * _shape(j, piece, c) * amount
+                whole[i, j] += one * shape(j, piece, c) * amount
 
 
 @uncounted
-def _shape(node, piece, corner):
+def shape(node, piece, corner):
     """Shape function of a four-node facet at a corner of a simplex: the node ``piece``, the next one, the middle."""
     if corner == 2:
         return QUARTER
@@ -69,7 +69,7 @@ def _at_corner(coefficients, function, piece, corner, split):
         return coefficients[function, corner]
     value = 0.0
     for node in range(4):
-        value += coefficients[function, node] * _shape(node, piece, corner)
+        value += coefficients[function, node] * shape(node, piece, corner)
     return value
 
 

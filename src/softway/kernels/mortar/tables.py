@@ -57,14 +57,45 @@ class Pairs(NamedTuple):
 
 class Distances(NamedTuple):
     """Distance of the surfaces of the pairs: slopes ``facing`` (s, k, d) under a shift of the slave, for each of its
-    coordinates, or (s, 1, d) for all where surfaces are flat; integrals ``height`` (s, k) of coordinates and the
-    heights of both surfaces along the distance [m^(r+1)], and integrals ``leaning`` (p, k, k, d) of coordinates on the
+    coordinates, or (s, 1, d) for all where surfaces are flat; integrals ``span`` (s, k) of coordinates and the distance
+    of the simplices, and ``height`` (s, k) of coordinates and the heights of both surfaces along it [m^(r+1)], and
+    integrals ``leaning`` (p, k, k, d) of coordinates on the
     slave and the slopes under a motion of its corners [m^r].
     """
 
     facing: Array
+    span: Array
     height: Array
     leaning: Array
+
+
+class Fading(NamedTuple):
+    """Pairs whose weights change: the ``number`` (s,) of each pair among them, -1 where the weight does not change, how
+    many are ``found`` (1,), and the changes under a motion of the corners, relative to the weight, ``slave`` and
+    ``master`` (f, k, d) [1/m].  Beside them the vertices ``points`` (v, d) of the slave [m], and the length or area
+    ``size`` (p,) of its simplices [m^r].
+    """
+
+    number: IntArray
+    found: IntArray
+    slave: Array
+    master: Array
+    points: Array
+    size: Array
+
+
+class FacetSums(NamedTuple):
+    """Place for one facet of up to b nodes: integrals ``mass`` (b, b) of its shape functions and their ``inverse``,
+    integrals ``apart`` (b,) of the shape functions and a distance and their product ``dual`` with the inverse, the
+    warping ``warp`` (4,), and the numbers ``known`` (4,).
+    """
+
+    mass: Array
+    inverse: Array
+    apart: Array
+    dual: Array
+    warp: Array
+    known: Array
 
 
 class Entries(NamedTuple):
@@ -84,7 +115,7 @@ class Room(NamedTuple):
     """Sums of one row: terms ``sums`` (u, 2 + d) of the nodes, ``used`` (u,) nodes and the list ``listed`` of them;
     terms ``held`` (w, 1 + d) of the vertices of the master, the ``seen`` ones (w,) and the list ``opposite`` of them;
     the lengths ``number`` (2,) of both lists, the sums ``mean`` (d,) of the normals and ``height`` (1,) of the heights,
-    and ``terms`` (1 + d,) of a vertex.
+    ``terms`` (1 + d,) of a vertex, and those of a ``facet``.
     """
 
     sums: Array
@@ -97,3 +128,4 @@ class Room(NamedTuple):
     mean: Array
     height: Array
     terms: Array
+    facet: FacetSums

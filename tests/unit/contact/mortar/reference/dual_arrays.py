@@ -13,6 +13,8 @@ from softway.contact.mortar.dual_basis import DualBasis
 DUAL, MEAN = 0.999, 0.5
 """Covered fractions above which the basis is dual, and below which it is the shape functions; mixed in between: a dual
 function on a partly covered facet extrapolates, and would detect overlap where curved surfaces separate."""
+ROUND = 0.2
+"""Last part of the way between both that is round."""
 STIFF = 1e-6
 """Penalty of warping, relative to the mass: a partly covered four-node facet does not determine it."""
 
@@ -32,15 +34,25 @@ def dual_basis(mass: Array, coverage: Array, warp: Array | None = None) -> DualB
     """
     b = mass.shape[-1]
     sums = mass.sum(axis=2)
-    mean = np.clip((DUAL - coverage) / (DUAL - MEAN), 0.0, 1.0)[:, None, None]
+    mean = mean_part(coverage)[:, None, None]
     diagonal = sums[:, :, None] * np.eye(b)
     regular = mass
     if warp is not None:
-        penalty = STIFF * sums.sum(axis=1) * np.maximum(1.0 - coverage, 0.0)
+        penalty = STIFF * sums.sum(axis=1) * np.where(np.real(coverage) < 1.0, 1.0 - coverage, 0.0)
         regular = mass + penalty[:, None, None] * warp[:, :, None] * warp[:, None, :]
-    regular = np.where(mean < 1.0, regular, np.eye(b))
+    regular = np.where(np.real(mean) < 1.0, regular, np.eye(b))
     coefficients = (1.0 - mean) * (sums[:, :, None] * np.linalg.inv(regular)) + mean * np.eye(b)
     return DualBasis(coefficients=coefficients, own=(1.0 - mean) * diagonal + mean * mass)
+
+
+def mean_part(coverage: Array) -> Array:
+    """Part (f,) of the shape functions in the basis of facets of which these fractions are covered, complex or not: a
+    line that begins at ``DUAL``, and a parabola with a horizontal tangent at ``MEAN``.
+    """
+    way = (DUAL - coverage) / (DUAL - MEAN)
+    slope, here = 1.0 / (1.0 - 0.5 * ROUND), np.real(way)
+    bent = 1.0 - slope * (1.0 - way) ** 2 / (2.0 * ROUND)
+    return np.select([here <= 0.0, here <= 1.0 - ROUND, here < 1.0], [0.0 * way, slope * way, bent], 1.0 + 0.0 * way)
 
 
 def warping(corners: Array) -> Array:

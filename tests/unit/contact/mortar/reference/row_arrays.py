@@ -4,6 +4,7 @@ import numpy as np
 import scipy.sparse as sp
 import segment_arrays
 import triangle_arrays
+from fade_arrays import gap_change, pair_weights, weight_changes
 from overlap_arrays import Overlap
 from weight_arrays import gap_weights
 
@@ -45,6 +46,7 @@ def rows(mortar: Mortar, met: MortarContact, x: Array) -> tuple[Stencils, Array]
         for n, p in zip(facing, square, strict=True)
     )
     slopes = interleaved([_over(nodal(sp.csr_array(p)), total, felt) for p in parts])
+    slopes = slopes + _fades(mortar, (slave, master), (points, size), common, (i, j), (to_slave, lift), facing)
     gap = np.where(felt, slopes @ x.ravel(), np.inf)
     return Stencils(gap=gap, normal=normal, weights=weights, slopes=slopes), covered
 
@@ -64,7 +66,42 @@ def overlap(mortar: Mortar, met: MortarContact, slave: Array, areas: Array, mast
     apart = np.einsum("ks,dks->ds", common.cross.sum(axis=0), np.take(master, j, axis=2))
     apart -= np.einsum("ks,dks->ds", common.own.sum(axis=0), np.take(slave, i, axis=2))
     height, measure = np.sum(apart * np.take(unit(areas), i, axis=1), axis=0), common.measure
-    return common.subset((measure > 0.0) & (np.abs(height) <= met.pairs.limit[common.pair] * measure))
+    near = common.subset((measure > 0.0) & (np.abs(height) <= met.pairs.limit[common.pair] * measure))
+    i, j = met.pairs.slave[near.pair], met.pairs.master[near.pair]
+    weight = pair_weights(np.take(unit(areas), i, axis=1), np.take(unit(vector_areas(master)), j, axis=1))
+    return Overlap(pair=near.pair, own=weight * near.own, cross=weight * near.cross).subset(weight > 0.0)
+
+
+def _fades(
+    mortar: Mortar,
+    corners: tuple[Array, Array],
+    surface: tuple[Array, Array],
+    common: Overlap,
+    pair: tuple[IntArray, IntArray],
+    spread: tuple[sp.csr_array, sp.csr_array],
+    facing: Array,
+) -> sp.csr_array:
+    """Slopes (m, n d) by the weights of pairs.
+
+    Arguments: corners (d, k, p) of both surfaces, control points and sizes of the slave, overlaps, numbers of the
+    simplices, vertices of both surfaces from the nodes of the model, slopes (d, s) of the distances.
+    """
+    (slave, master), (i, j), d = corners, pair, len(facing)
+    square, normal = (np.take(unit(vector_areas(c)), k, axis=1) for c, k in zip(corners, pair, strict=True))
+    weight = pair_weights(square, normal)
+    changes = weight_changes(square, normal, (_gradients(slave)[..., i], _gradients(master)[..., j]))
+    low, high = (np.einsum("dks,ds->ks", c[..., k], facing) for c, k in zip(corners, pair, strict=True))
+    apart = np.einsum("abs,bs->as", common.own, low) - np.einsum("abs,bs->as", common.cross, high)
+    found = sp.csr_array((len(mortar.node), spread[0].shape[1] * d))
+    for s in np.flatnonzero(weight < 1.0):
+        change = sp.csr_array(gap_change(mortar, *surface, common, pair, apart, int(s))[:, None] / weight[s])
+        for motion, numbers, simplex, vertices in zip(
+            changes, pair, (mortar.slave.corner, mortar.master.corner), spread, strict=True
+        ):
+            for b, vertex in enumerate(simplex[numbers[s]]):
+                node = sp.kron(vertices[[vertex]], motion[:, b, s][None], format="csr")
+                found = found + sp.csr_array(change @ sp.csr_array(node))
+    return found
 
 
 def _seen(square: Array, master: Array, j: IntArray) -> Array:

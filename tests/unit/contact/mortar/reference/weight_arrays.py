@@ -51,7 +51,7 @@ class GapWeights:
     def means(self, simplex: IntArray, cross: Array, vectors: Array) -> Array:
         """Integrals (m, d) of the functions times vectors (d, s) that are constant over each pair."""
         block = np.einsum("bks,ks->bs", np.take(self.values, simplex, axis=2), cross.sum(axis=1))
-        out = np.zeros((self.own.shape[0], len(vectors)))
+        out = np.zeros((self.own.shape[0], len(vectors)), block.dtype)
         for row, value in zip(np.take(self.row, simplex, axis=1), block, strict=True):
             np.add.at(out, row, (value * vectors).T)
         return out
@@ -73,7 +73,7 @@ def gap_weights(slave: LinearSurface, points: Array, size: Array, mass: Array) -
     """
     k, p, m = len(mass), len(size), len(points)
     width = max(cells.shape[1] for cells in slave.facets.values())
-    row, values = np.zeros((width, p), dtype=np.int64), np.zeros((width, k, p))
+    row, values = np.zeros((width, p), dtype=np.int64), np.zeros((width, k, p), mass.dtype)
     own, first = sp.csr_array((m, m)), 0
     for kind, cells in slave.facets.items():
         shapes = pieces(kind)
@@ -81,7 +81,7 @@ def gap_weights(slave: LinearSurface, points: Array, size: Array, mass: Array) -
         here = slice(first, first + f * q)
         facet_mass = np.einsum("qkb,klfq,qlc->fbc", shapes, mass[..., here].reshape(k, k, f, q), shapes, optimize=True)
         coverage = facet_mass.sum(axis=(1, 2)) / size[here].reshape(f, q).sum(axis=1)
-        facet_mass *= (coverage > LEAST)[:, None, None]
+        facet_mass *= (np.real(coverage) > LEAST)[:, None, None]
         made = dual_basis(facet_mass, coverage, warping(points[cells]) if kind == "quad4" else None)
         row[:b, here] = np.repeat(cells.T, q, axis=1)
         values[:b, :, here] = np.einsum("fbc,qkc->bkfq", made.coefficients, shapes).reshape(b, k, f * q)

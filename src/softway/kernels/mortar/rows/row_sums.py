@@ -3,12 +3,14 @@
 import numpy as np
 
 from softway.kernels.jit.compilation import uncounted, uncounted_kernel
+from softway.kernels.mortar.rows.fade_slopes import add_fades
+from softway.kernels.mortar.rows.spread import CROSS, list_node, spread_terms
 
-OWN, CROSS, SLOPE = 0, 1, 2
+OWN, SLOPE = 0, CROSS + 1
 
 
 @uncounted_kernel
-def sum_rows(first, slave, master, facets, functions, pairs, distances, node, x, room, made, gap, normal):
+def sum_rows(first, slave, master, facets, functions, pairs, distances, fading, node, x, room, made, gap, normal):
     """Rows of the nodes of the slave from ``first`` on, until there is no place for one more; returns the next row.
 
     Arguments: tables of :mod:`~softway.kernels.mortar.tables`, numbers ``node`` (u,) of the
@@ -25,6 +27,10 @@ def sum_rows(first, slave, master, facets, functions, pairs, distances, node, x,
             covered += _own_part(use, slave, facets, functions, room)
             total += _common_part(use, slave, master, facets, functions, pairs, distances, room)
         _spread_opposite(master, room)
+        if fading.found[0] > 0 and covered > 0.0 and total > 0.0:
+            mean = (_distance_sum(room, x) - room.height[0]) / total
+            for use in range(facets.start[r], facets.start[r + 1]):
+                add_fades(use, mean, slave, master, facets, functions, pairs, distances, fading, room)
         met = room.number[0]
         free = made.first[r] + met <= len(made.weight) and made.start[r] + x.shape[1] * met <= len(made.slope)
         made.first[r + 1], made.start[r + 1] = made.first[r], made.start[r]
@@ -53,7 +59,7 @@ def _own_part(use, slave, facets, functions, room):
             if amount != 0.0:
                 vertex = facets.cells[facet, b]
                 for q in range(slave.start[vertex], slave.start[vertex + 1]):
-                    _list(slave.column[q], room)
+                    list_node(slave.column[q], room)
                     room.sums[slave.column[q], OWN] += slave.value[q] * amount
     return covered
 
@@ -75,11 +81,22 @@ def _common_part(use, slave, master, facets, functions, pairs, distances, room):
                 room.terms[1 + c] = 0.0
                 for a in range(k):
                     room.terms[1 + c] += share * functions.values[i, place, a] * distances.leaning[i, a, b, c]
-            _spread_terms(slave, slave.corner[i, b], room)
+            spread_terms(slave, slave.corner[i, b], room)
         for s in range(pairs.first[i], pairs.first[i + 1]):
             for a in range(k):
                 room.height[0] += share * functions.values[i, place, a] * distances.height[s, a]
             total += _opposite_part(share, functions.values[i, place], s, master, pairs, distances, room)
+    return total
+
+
+@uncounted
+def _distance_sum(room, x):
+    """Sum of the distances of a row, from its slopes and the positions (u, d)."""
+    total = 0.0
+    for q in range(room.number[0]):
+        u = room.listed[q]
+        for c in range(x.shape[1]):
+            total += room.sums[u, SLOPE + c] * x[u, c]
     return total
 
 
@@ -120,25 +137,7 @@ def _spread_opposite(master, room):
         for term in range(len(room.terms)):
             room.terms[term], room.held[vertex, term] = room.held[vertex, term], 0.0
         room.seen[vertex] = False
-        _spread_terms(master, vertex, room)
-
-
-@uncounted
-def _spread_terms(surface, vertex, room):
-    """Add the terms of a vertex, the motion of the master and the slopes, to those of its nodes."""
-    for q in range(surface.start[vertex], surface.start[vertex + 1]):
-        column = surface.column[q]
-        _list(column, room)
-        for c in range(len(room.terms)):
-            room.sums[column, CROSS + c] += surface.value[q] * room.terms[c]
-
-
-@uncounted
-def _list(column, room):
-    """Add a node to the list."""
-    if not room.used[column]:
-        room.used[column], room.listed[room.number[0]] = True, column
-        room.number[0] += 1
+        spread_terms(master, vertex, room)
 
 
 @uncounted

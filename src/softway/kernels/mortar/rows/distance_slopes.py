@@ -9,7 +9,7 @@ import numpy as np
 
 from softway.arrays import Array
 from softway.kernels.jit.compilation import uncounted, uncounted_kernel
-from softway.kernels.mortar.heights import add_heights, tilt
+from softway.kernels.mortar.rows.heights import add_heights, tilt
 from softway.kernels.mortar.simplices import vector_area
 
 STEEP = 0.2
@@ -51,22 +51,22 @@ def distance_slopes(slave, master, pairs, below, above, heights, room, out):
     p, k = slave.corner.shape
     for i in range(p):
         if pairs.first[i] < pairs.first[i + 1]:
-            _gradients(below, slave.corner, i, room.square, room.gradient)
+            gradients(below, slave.corner, i, room.square, room.gradient)
         for s in range(pairs.first[i], pairs.first[i + 1]):
             cosine = _face(above, master.corner, pairs.master[s], room, out.facing, s)
             if len(heights[1]) and cosine > 0.0:
-                _gradients(above, master.corner, pairs.master[s], room.normal, room.along)
+                gradients(above, master.corner, pairs.master[s], room.normal, room.along)
                 add_heights(slave, master, heights, pairs, below, above, i, s, cosine, room, out.height)
                 for a in range(k):
                     tilt(heights[1], pairs.master[s], pairs.cross[s, a], cosine, room, out.facing[s, a])
             if len(heights[1]):
                 for a in range(k):
                     _project(slave, master, pairs, below, above, i, s, out.facing[s, a], room)
-                    _lean(i, s, a, pairs, out.facing[s, a], room, out.leaning)
+                    _lean(i, s, a, pairs, out.facing[s, a], room, out)
             else:
                 _project(slave, master, pairs, below, above, i, s, out.facing[s, 0], room)
                 for a in range(k):
-                    _lean(i, s, a, pairs, out.facing[s, 0], room, out.leaning)
+                    _lean(i, s, a, pairs, out.facing[s, 0], room, out)
 
 
 @uncounted
@@ -82,19 +82,20 @@ def _project(slave, master, pairs, below, above, i, s, facing, room):
 
 
 @uncounted
-def _lean(i, s, a, pairs, facing, room, leaning):
+def _lean(i, s, a, pairs, facing, room, out):
     """Add the integrals of a coordinate a and the slopes of a pair under a motion of the corners of the slave i."""
     k, distance = len(room.lean), 0.0
     for b in range(k):
         distance += pairs.own[s, a, b] * room.low[b] - pairs.cross[s, a, b] * room.high[b]
+    out.span[s, a] = distance
     for b in range(k):
         turned = distance * room.lean[b]
         for c in range(len(facing)):
-            leaning[i, a, b, c] += pairs.own[s, a, b] * facing[c] - turned * room.square[0, c]
+            out.leaning[i, a, b, c] += pairs.own[s, a, b] * facing[c] - turned * room.square[0, c]
 
 
 @uncounted
-def _gradients(vertices, corner, i, square, gradient):
+def gradients(vertices, corner, i, square, gradient):
     """Unit normal (1, d) of a simplex, and gradients (k, d), along it, of its barycentric coordinates."""
     size = vector_area(vertices, corner, i, square, 0)
     for c in range(square.shape[1]):

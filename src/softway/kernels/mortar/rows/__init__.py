@@ -1,0 +1,1 @@
+"""Rows of mortar contact from the pairs of simplices."""
