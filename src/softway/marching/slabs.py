@@ -7,7 +7,10 @@ from functools import partial
 
 import numpy as np
 
-from softway.marching.attempts import DAMPED, AcceptedSlab, accept_slab, recent_rejections, require_progress
+from softway.marching.attempts.accept import accept_slab
+from softway.marching.attempts.audited_slab import DAMPED, AcceptedSlab
+from softway.marching.attempts.dashpot_slab import lost_equilibrium
+from softway.marching.attempts.rejections import recent_rejections, require_progress
 from softway.marching.audit.folded_cells import WatchedCells, watched_cells
 from softway.marching.audit.ledger import update_account
 from softway.marching.results.step import Event, Ledger, Report, Step
@@ -67,6 +70,8 @@ def groups(stepper: Stepper, march_state: MarchState) -> Iterator[Step | StepGro
         if memory.choice is None and found.memory.choice is not None:
             log.info("operator %s: %s", found.memory.choice.operator, found.memory.choice.reason)
         found, bad = _looked_at(shapes, march_state, found)
+        if found.dashpots is not None and not march_state.step_history.dashpots:
+            bad = (lost_equilibrium(model, march_state, found.out, found.dashpots), *bad)
         march_state = _after(model, march_state, found, cells)
         log.debug("slab %d to t = %.6g s: %d iterations", march_state.slabs, found.after.time, found.out.iterations)
         yield (step := _step(model, before, found, march_state, bad))
@@ -119,6 +124,7 @@ def _after(model: Model, march_state: MarchState, found: AcceptedSlab, cells: Cr
             length=following,
             energy_along_motion=found.energy_along_motion,
             halted=found.halted,
+            dashpots=found.dashpots is not None,
             recent_rejections=recent_rejections(
                 march_state.step_history,
                 found.slab.span,
@@ -157,7 +163,7 @@ def _next(model: Model, march_state: MarchState, found: AcceptedSlab) -> tuple[f
     if found.halted:
         return span * float(np.sqrt(0.5)), 0
     if found.slab.weight == DAMPED:
-        return span, 0
+        return min(span, 2.0 * length), 0
     end = found.out.solution.end
     strained = (
         model.inert

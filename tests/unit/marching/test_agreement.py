@@ -9,8 +9,8 @@ import pytest
 
 from softway.contact.impact_rule import Energy, ImpactRule, Impulse, Paper
 from softway.errors import NoConvergence, NumericsError
-from softway.marching import attempts
 from softway.marching import march as module
+from softway.marching.attempts import audited_slab
 from softway.solve.methods.fixed_point import FixedPoint
 from softway.solve.methods.newton import Newton
 from softway.solve.operators.operator_memory import OperatorMemory
@@ -81,9 +81,9 @@ def test_the_answer_follows_the_tolerance(shop, fall, plain, tolerance: float) -
 @rules
 def test_nothing_but_the_state_matters(shop, fall, plain, rule: ImpactRule, monkeypatch: pytest.MonkeyPatch) -> None:
     kept = plain(rule)
-    advance = attempts.advance
+    advance = audited_slab.advance
     monkeypatch.setattr(
-        attempts, "advance", lambda r, now, slab, memory, *rest: advance(r, now, slab, OperatorMemory(), *rest)
+        audited_slab, "advance", lambda r, now, slab, memory, *rest: advance(r, now, slab, OperatorMemory(), *rest)
     )
     assert shop.distance(fall(rule), kept) <= NEAR
 
@@ -98,7 +98,7 @@ def test_a_failed_attempt_changes_nothing_but_the_rejections(
     shop, fall, plain, rule: ImpactRule, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     kept = plain(rule)
-    advance, calls = attempts.advance, []
+    advance, calls = audited_slab.advance, []
 
     def stumbling(r, now, slab, memory, *rest):
         out = advance(r, now, slab, memory, *rest)
@@ -107,7 +107,7 @@ def test_a_failed_attempt_changes_nothing_but_the_rejections(
             raise NoConvergence("stumbled")
         return out
 
-    monkeypatch.setattr(attempts, "advance", stumbling)
+    monkeypatch.setattr(audited_slab, "advance", stumbling)
     motion = fall(rule)
     assert shop.distance(motion, kept) <= NEAR
     reasons = [reason for s in motion.steps for reason in s.report.rejections]
@@ -116,14 +116,14 @@ def test_a_failed_attempt_changes_nothing_but_the_rejections(
 
 
 def test_a_slab_that_fails_is_halved_and_the_length_recovers(shop, monkeypatch: pytest.MonkeyPatch) -> None:
-    advance = attempts.advance
+    advance = audited_slab.advance
 
     def short_of_breath(r, now, slab, memory, *rest):
         if slab.span > 0.02 and 0.3 < slab.end < 0.6:
             raise NoConvergence("too long")
         return advance(r, now, slab, memory, *rest)
 
-    monkeypatch.setattr(attempts, "advance", short_of_breath)
+    monkeypatch.setattr(audited_slab, "advance", short_of_breath)
     motion = shop.move(shop.block(), shop.floor, until=1.0, step=0.05)
     spans = np.array([s.slab.span for s in motion.steps])
     ends = np.array([s.slab.end for s in motion.steps])
@@ -135,7 +135,7 @@ def test_a_slab_that_fails_is_halved_and_the_length_recovers(shop, monkeypatch: 
 
 
 def test_a_march_that_cannot_go_on_says_so_and_stops(shop, monkeypatch: pytest.MonkeyPatch) -> None:
-    advance = attempts.advance
+    advance = audited_slab.advance
     calls = []
 
     def blocked(r, now, slab, memory, *rest):
@@ -144,7 +144,7 @@ def test_a_march_that_cannot_go_on_says_so_and_stops(shop, monkeypatch: pytest.M
             raise NoConvergence("a stone")
         return advance(r, now, slab, memory, *rest)
 
-    monkeypatch.setattr(attempts, "advance", blocked)
+    monkeypatch.setattr(audited_slab, "advance", blocked)
     found = []
     with pytest.raises(NumericsError, match="a stone") as error:
         found.extend(module.march(shop.move(shop.bar(), until=0.05).model, until=1.0, step=0.05))

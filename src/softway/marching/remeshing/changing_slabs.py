@@ -48,7 +48,8 @@ def changing_slabs(
     change: Callable[[On, MarchState], Change[On] | None],
     cancel: Cancel | None,
     trying: TryWatch | None,
-    rescue: Callable[[On, MarchState, bool, NumericsError], Change[On] | None] | None = None,
+    rescue: Callable[[On, MarchState, bool, NumericsError], Change[On] | None],
+    meshes_first: bool = False,
 ) -> Iterator[Step]:
     """Accepted slabs of a march whose meshes change between them.
 
@@ -63,7 +64,9 @@ def changing_slabs(
         As for :func:`~softway.marching.start.preparation.prepare`.
     rescue
         Change before another try of a slab that failed at every length, from the state before the slab; True if it
-        failed on new meshes, and how.  None where the march ends with the failure.
+        failed on new meshes, and how.  None where no other meshes are to be had.
+    meshes_first
+        True if other meshes are tried before dashpots where massless nodes have no equilibrium.
 
     Raises
     ------
@@ -71,19 +74,22 @@ def changing_slabs(
         As for :func:`~softway.marching.slabs.slabs`.
     """
     now, settings = prepared.march_state, prepared.march_state.settings
-    here = _OnMeshes(on=on, stepper=prepared.stepper, steps=slabs(prepared.stepper, now))
+    stepper = replace(prepared.stepper, dashpots=not meshes_first)
+    here = _OnMeshes(on=on, stepper=stepper, steps=slabs(stepper, now))
     while now.state.time < settings.until - 1e-9 * now.step_history.span:
         found = change(here.on, now) if now.slabs else None
         there = here.after(found, settings, cancel, trying)
         try:
             step = next(there.steps)
         except NumericsError as failure:
-            found = None if rescue is None else rescue(here.on, now, there.on is not here.on, failure)
-            if found is None:
+            rescued = rescue(here.on, now, there.on is not here.on, failure)
+            if rescued is not None:
+                log.info("slab at t = %.6g s tried again on other meshes: %s", now.state.time, failure.what)
+                found, there = rescued, here.after(rescued, settings, cancel, trying)
+            elif there.stepper.dashpots:
                 raise
-            log.info("slab at t = %.6g s tried again on other meshes: %s", now.state.time, failure.what)
-            there = here.after(found, settings, cancel, trying)
-            step = next(there.steps)
+            step = next(slabs(replace(there.stepper, dashpots=True), now if found is None else found.now))
+            there = replace(there, steps=slabs(there.stepper, step.march_state))
         here, now = there, step.march_state
         yield step if found is None else replace(step, transfers=found.transfers, exchanges=found.exchanges)
 
@@ -104,5 +110,6 @@ class _OnMeshes(Generic[On]):
             return self
         if found.on is self.on:
             return replace(self, steps=slabs(self.stepper, found.now))
-        stepper = prepare(found.on.model, settings, found.now, cancel, trying).stepper
+        prepared = prepare(found.on.model, settings, found.now, cancel, trying)
+        stepper = replace(prepared.stepper, dashpots=self.stepper.dashpots)
         return _OnMeshes(on=found.on, stepper=stepper, steps=slabs(stepper, found.now))

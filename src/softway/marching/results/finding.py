@@ -8,11 +8,12 @@ from softway.arrays import Array
 from softway.marching.results.step import Event
 
 OVERLAP, BETWEEN, INVERTED, FLAT_CELL = "overlap", "overlap between nodes", "inverted cell", "flat cell"
-DISSIPATION, ENERGY, MOMENTUM, SPIN = "dissipation", "energy", "momentum", "spin"
-KINDS = (OVERLAP, BETWEEN, INVERTED, FLAT_CELL, DISSIPATION, ENERGY, MOMENTUM, SPIN)
+NO_EQUILIBRIUM, DISSIPATION = "no equilibrium", "dissipation"
+ENERGY, MOMENTUM, SPIN = "energy", "momentum", "spin"
+KINDS = (OVERLAP, BETWEEN, INVERTED, FLAT_CELL, NO_EQUILIBRIUM, DISSIPATION, ENERGY, MOMENTUM, SPIN)
 """Kinds: a node lies inside of another body, of a tool or of its own body; a place between nodes does; a cell is
-inverted; a cell has become flat; a slab gave dissipated energy back; a balance misses; momentum or spin do not agree
-with the fields."""
+inverted; a cell has become flat; massless nodes had no equilibrium; a slab gave dissipated energy back; a balance
+misses; momentum or spin do not agree with the fields."""
 
 
 def finding(

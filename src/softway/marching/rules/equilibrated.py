@@ -104,10 +104,10 @@ class EndForceContact:
         return WeightedMean(slab.weight)
 
     def closure(self, model: Model, now: ModelState, slab: Slab, attempt: Attempt) -> Closure:
-        """Closure by the scalar; with friction and another time weight, forces at the end only."""
+        """Closure by the scalar; with another time weight, and friction or massless nodes, forces at the end only."""
         if slab.weight == EndPeaks():
             return EnergyScalar(attempt.energy_along_motion)
-        return Unclosed() if model.friction.frictionless else EndForcesOnly()
+        return Unclosed() if model.friction.frictionless and model.space.every(model.massive) else EndForcesOnly()
 
     def energy_balance(self, model: Model, slab: Slab) -> EnergyBalance:
         """Closed with inertia and the default time weight."""

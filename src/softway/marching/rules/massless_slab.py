@@ -121,6 +121,7 @@ def equations(
         effort=attempt.effort,
         positive_definite=attempt.positive_definite,
         follower=attempt.follower,
+        dashpots=attempt.dashpots,
     )
 
 

@@ -6,6 +6,7 @@ from typing import Protocol
 
 import numpy as np
 
+from softway.bodies.assembled.dashpots import Dashpots
 from softway.bodies.setup.directions import directed
 from softway.bodies.solid import Solid
 from softway.errors import Cancel, InputError
@@ -54,6 +55,8 @@ class Attempt:
         Least tolerance of the iteration, relative to the greatest velocity.
     follower
         Supports whose motion follows from the forces on them; None without.
+    dashpots
+        Dashpots at massless nodes that have no equilibrium; None without.
     """
 
     approach: float = np.inf
@@ -67,6 +70,7 @@ class Attempt:
     guess: Guess | None = None
     tolerance: float = 0.0
     follower: Follower | None = None
+    dashpots: Dashpots | None = None
 
 
 class SlabRule(Protocol):

@@ -41,7 +41,7 @@ def next_batch(
     The state alone decides which slabs are compiled, so that a resumed march has the same bits.
     """
     now, history, model = march_state.state, march_state.step_history, compiled.model
-    steady = history.length == history.span == compiled.span and not (history.halted or history.energy_along_motion)
+    steady = history.length == history.span == compiled.span and not (history.altered or history.energy_along_motion)
     known = memory.origin is not None and not memory.stale
     if not (steady and known and max(memory.taken.last, default=0) <= USUAL * WORN):
         return None

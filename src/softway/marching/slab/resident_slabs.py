@@ -71,7 +71,7 @@ def next_resident(
     """
     now, history, settings = march_state.state, march_state.step_history, march_state.settings
     active = np.flatnonzero(now.pressure > 0.0)
-    calm = not (history.halted or history.energy_along_motion or history.recent_rejections)
+    calm = not (history.altered or history.energy_along_motion or history.recent_rejections)
     if not (calm and history.length <= history.span) or now.rows is not None or not resident.moved[active].all():
         return None
     fields = now.start.displacement, now.start.velocity, now.acceleration, now.start.force

@@ -36,6 +36,7 @@ class Stepper:
 
     ``second`` is the rule by another method for slabs in which the method does not converge; by default they are
     shortened.  ``ends`` are instants at which slabs end, see :func:`~softway.marching.start.knots.slab_ends`.
+    ``dashpots`` are allowed where massless nodes have no equilibrium, or another remedy goes before them.
     """
 
     model: Model
@@ -45,6 +46,7 @@ class Stepper:
     ends: tuple[float, ...] = ()
     cancel: Cancel | None = None
     trying: TryWatch | None = None
+    dashpots: bool = True
 
 
 def stepper(

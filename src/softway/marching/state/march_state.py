@@ -58,6 +58,8 @@ class StepHistory:
         True if the energy balance of the next slab is closed along the motion from the first attempt.
     halted
         True if the last slab ended where a body came to rest.
+    dashpots
+        True if massless nodes had no equilibrium in the last slab, and dashpots acted on them.
     recent_rejections
         Number of recent rejections in slabs far below the requested length, and of such slabs without end in sight.
     last_rejection
@@ -74,11 +76,17 @@ class StepHistory:
     length: float
     energy_along_motion: bool = False
     halted: bool = False
+    dashpots: bool = False
     recent_rejections: float = 0.0
     last_rejection: str = ""
     rejected: int = 0
     smooth: int = 0
     fastest: float = 0.0
+
+    @property
+    def altered(self) -> bool:
+        """True if the next slab is damped after what happened in the last one."""
+        return self.halted or self.dashpots
 
     @property
     def longest(self) -> float:

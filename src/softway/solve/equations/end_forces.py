@@ -43,3 +43,8 @@ class EndForces:
     def tangential(self) -> tuple[tuple[ContactRows, Array], tuple[ContactRows, Array]]:
         """Contact rows and tangential forces (m, d) at the two ends."""
         return (self.rows0, self.shear0), (self.rows1, self.shear1)
+
+    @property
+    def rubs(self) -> bool:
+        """True if there is friction at one of the ends."""
+        return bool(self.rows1.shear.count) and bool(self.shear0.any() or self.shear1.any())

@@ -14,6 +14,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from softway.arrays import Array, BoolArray
+from softway.bodies.assembled.dashpots import Dashpots
 from softway.contact.contact_rows import ContactRows
 from softway.contact.slab_motion.trajectory import Trajectory
 from softway.model.field import FieldContact, FieldSlab, FieldSolution, FieldState, RubbedField
@@ -35,20 +36,9 @@ from softway.solve.equations.slab_values import Evaluation, SlabStart
 from softway.tolerances import KEEP_EDGES_AFTER, KEEP_FACETS_AFTER
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Cold:
-    """Solution of a companion field that friction does not heat."""
-
-    solution: FieldSolution
-
-    def __call__(self, rubbed: Array) -> FieldSolution:
-        """The solution, whatever friction dissipates."""
-        return self.solution
-
-
-def _rubs(ends: EndForces) -> bool:
-    """True if there is friction at one of the ends of a slab."""
-    return bool(ends.rows1.shear.count) and bool(ends.shear0.any() or ends.shear1.any())
+def _cold(solution: FieldSolution) -> Callable[[Array], FieldSolution]:
+    """Solver of a field that friction does not heat."""
+    return lambda rubbed: solution
 
 
 FIELD_PASSES = 8
@@ -83,6 +73,8 @@ class SlabEquations:
         True if the operator has to be positive definite.
     follower
         Supports whose motion follows from the forces on them; None without.
+    dashpots
+        Dashpots at massless nodes that have no equilibrium; None without.
     """
 
     model: Model
@@ -98,6 +90,7 @@ class SlabEquations:
     effort: Effort = field(default_factory=Effort)
     positive_definite: bool = False
     follower: Follower | None = None
+    dashpots: Dashpots | None = None
 
     def evaluate(self, q: Array, impulse: Array, last: Evaluation | None = None) -> Evaluation:
         """Evaluate the residual and its ingredients at q (n, d) with the contact impulses (m,) [N s].
@@ -115,6 +108,9 @@ class SlabEquations:
         shock = model.shock_force(0.5 * (start.displacement + u1), u1 - start.displacement, h)
         if shock is not None:
             mean, lost = mean + shock, model.space.totals(shock * (u1 - start.displacement))
+        if self.dashpots is not None:
+            pull = self.dashpots.force(u1 - start.displacement, h)
+            mean, force = mean + pull, force + pull
         rows = self.contact.at(u1)
         ends = self._ends(u1, (force, mean, viscous), energy + lost, rows, impulse)
         coupled, completed = self._completed(ends, last)
@@ -153,7 +149,7 @@ class SlabEquations:
             coupled = tuple(solve(rubbed) for solve in solvers)
             completed = self.closure.close(self.model, self._joined(bare, coupled))
             settled = last is not None or np.abs(completed.scalar - scalar).max() <= SETTLED
-            if settled or not _rubs(bare):
+            if settled or not bare.rubs:
                 break
             scalar = completed.scalar
             rubbed = self._rubbed(bare, scalar)
@@ -169,13 +165,13 @@ class SlabEquations:
             slab = FieldSlab(
                 span=span, start=state, u0=ends.u0, u1=ends.u1, contact=contact, first=first, expected=then
             )
-            found.append(c.solver(slab) if isinstance(c, RubbedField) else Cold(c.solve(slab)))
+            found.append(c.solver(slab) if isinstance(c, RubbedField) else _cold(c.solve(slab)))
         return found
 
     def _rubbed(self, ends: EndForces, scalar: Array) -> Array:
         """Energy (m,) that friction forces with the ``scalar`` (parts,) dissipate at the rows [J]."""
         model, (first, last) = self.model, (ends.rows0, ends.rows1)
-        if not _rubs(ends):
+        if not ends.rubs:
             return np.zeros(len(last.node))
         part = model.part_of[last.node]
         group = body_groups(model, (first, ends.force0 > 0.0), (last, ends.force1 > 0.0))[part]
@@ -291,9 +287,12 @@ class SlabEquations:
     def stiffness(self) -> SlabMatrix:
         """Matrix ``M + h^2/2 mu2 K`` on the unknowns."""
         viscous_factor = first_weight(self.weight) / moments(self.weight)[1] if self.model.inert else 0.0
+        dashpots = self.dashpots
+        damping = None if dashpots is None else dashpots.stiffness(self.model.dofs.jacobian, self.path.span)
         return SlabMatrix(
             model=self.model,
             stiffness_factor=self.stiffness_factor,
             viscous_factor=viscous_factor,
             positive_definite=self.positive_definite,
+            damping=damping,
         )

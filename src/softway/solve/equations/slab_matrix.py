@@ -6,6 +6,7 @@ import scipy.sparse as sp
 
 from softway.arrays import Array
 from softway.model.model import Model
+from softway.solve.linear.pattern import sum_within
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -23,13 +24,17 @@ class SlabMatrix:
     positive_definite
         True if its factor has to be that of a positive definite matrix, see
         :func:`~softway.solve.operators.positive_definite.positive_definite_factor`.
+    damping
+        (f, f) additional stiffness, of dashpots over the slab; None without.
     """
 
     model: Model
     stiffness_factor: float
     viscous_factor: float
     positive_definite: bool = False
+    damping: sp.csc_array | None = None
 
     def operator(self, u: Array, secant: bool = False) -> sp.csc_array:
         """Matrix (f, f) at the displacement u (n, d), symmetric positive definite near equilibrium."""
-        return self.model.inertia_and_stiffness(u, self.stiffness_factor, secant, self.viscous_factor)
+        matrix = self.model.inertia_and_stiffness(u, self.stiffness_factor, secant, self.viscous_factor)
+        return matrix if self.damping is None else sum_within(matrix, self.stiffness_factor * self.damping)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from softway.contact.impact_rule import Impulse, Paper
-from softway.marching import attempts
+from softway.marching.attempts import audited_slab
 from softway.marching.audit.certificate import violation
 
 
@@ -19,7 +19,7 @@ def judged_slabs(shop, **options: object) -> list[tuple]:
         return violation(*everything)
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(attempts, "violation", listening)
+        patch.setattr(audited_slab, "violation", listening)
         shop.move(shop.block((0.03, -0.1)), shop.floor, until=1.0, **options)
     pushed = [slab for slab in judged if slab[3].pressure.max() > 0.0]
     assert len(pushed) > 5

@@ -51,7 +51,7 @@ def forming_march(
     now = prepared.march_state
     if now.remeshed is None:
         prepared = replace(prepared, march_state=replace(now, remeshed=RemeshedMeshes(meshes=on.meshes)))
-    return changing_slabs(on, prepared, _change, cancel, trying, _rescue)
+    return changing_slabs(on, prepared, _change, cancel, trying, _rescue, meshes_first=True)
 
 
 def _change(on: FormedScene, now: MarchState) -> Change[FormedScene] | None:

@@ -29,7 +29,7 @@ def next_stored(
     The state alone decides which slabs are compiled, so that a resumed march has the same bits.
     """
     now, history, model = march_state.state, march_state.step_history, stored.model
-    steady = history.length == history.span == stored.span and not (history.halted or history.energy_along_motion)
+    steady = history.length == history.span == stored.span and not (history.altered or history.energy_along_motion)
     if not (steady and _known(memory, stored.span)) or now.rows is not None:
         return None
     wanted = most_slabs(march_state, stored.span)

@@ -17,7 +17,7 @@ from softway.model.model import Model
 from softway.model.time_weight import TimeWeight
 from softway.solve.operators.operator_memory import OperatorMemory
 
-attempts = importlib.import_module("softway.marching.attempts")
+attempts = importlib.import_module("softway.marching.attempts.accept")
 STEP = 0.125
 Failure = Callable[[int], Exception | None]
 

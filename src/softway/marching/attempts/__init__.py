@@ -1,0 +1,1 @@
+"""Attempts at the next slab (time step), with cutbacks until a slab is accepted."""
