@@ -33,7 +33,7 @@ class Pattern:
 
 
 def sum_within(matrix: sp.csc_array, other: sp.csc_array) -> sp.csc_array:
-    """Sum (f, f) of two matrices on the pattern of the first, which has all entries of the ``other``.
+    """Sum (f, f) of two matrices, on the pattern of the first if it has all entries of the ``other``.
 
     Examples
     --------
@@ -45,7 +45,7 @@ def sum_within(matrix: sp.csc_array, other: sp.csc_array) -> sp.csc_array:
     order = np.argsort(ours, kind="stable")
     found = order[np.minimum(np.searchsorted(ours, theirs, sorter=order), len(order) - 1)]
     if not np.array_equal(ours[found], theirs):
-        raise InputError("matrix", "entries outside of the pattern", "one with these entries")
+        return sp.csc_array(matrix + other)
     data = matrix.data.copy()
     np.add.at(data, found, other.data)
     return sp.csc_array((data, matrix.indices, matrix.indptr), shape=matrix.shape)
