@@ -80,4 +80,4 @@ def test_a_gap_is_continuous_while_a_facet_turns_away() -> None:
         assert np.abs(gaps[0] - FLAT).max() > 0.1
         return float(np.abs(np.diff(gaps, axis=0)).max())
 
-    assert greatest_change(961) < 0.3 * greatest_change(241)
+    assert greatest_change(193) < 0.3 * greatest_change(49)
