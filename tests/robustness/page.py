@@ -131,9 +131,9 @@ def adapted_drops(given: list[dict[str, Any]], found: list[dict[str, Any]]) -> s
     seconds = [without[d["number"]]["seconds"] for d in found]
     text = f"""## Random drops on meshes that adapt
 
-The first {len(found)} of these drops with `adapt = "auto"` in every solid (`--adapt --seconds 400`); on the given
+The first {len(found)} of these drops with `adapt = "auto"` in every solid (`--adapt --seconds 150`); on the given
 meshes they took {sum(seconds):.0f} s together, and at most {max(seconds):.0f} s.
-*Slow* is more than 400 s of processor time.
+*Slow* is more than 150 s of processor time.
 Meshes of cells that are not cut stay; small ones are fine from the start where a contact is near.
 
 """
