@@ -162,7 +162,14 @@ def positive(**values: float) -> None:
 
 
 class NoConvergence(Exception):
-    """Failure to solve a slab; the march rejects it and tries a shorter one. The message gives the reason."""
+    """Failure to solve a slab; the march rejects it and tries a shorter one. The message gives the reason.
+
+    ``contracting`` tells that an iteration was on its way to a solution when it reached its limit.
+    """
+
+    def __init__(self, reason: str, contracting: bool = False) -> None:
+        self.contracting = contracting
+        super().__init__(reason)
 
 
 class Unbalanced(Exception):

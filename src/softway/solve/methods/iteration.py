@@ -89,6 +89,8 @@ velocity: changes of mixed iterates may stagnate for as many iterations as the m
 ITERATIVE = 10.0
 """Greatest such change by an operator that solves approximately, relative to the tolerance: its error is not rounding.
 """
+CONTRACTING = 0.5
+"""Mean ratio of successive changes below which an iteration that reaches its limit was on its way to a solution."""
 WILD = 100.0
 """Velocity of an iterate, relative to all that may cause it, beyond which the iteration has gone astray."""
 SELF_BALANCED = 1e-12
@@ -161,7 +163,8 @@ def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float
         if count - begun >= limit or count >= LONGEST * limit:
             break
     if closest == np.inf:
-        raise NoConvergence(failure)
+        fell = contraction(first, it.change, count) if np.isfinite(it.change) else np.inf
+        raise NoConvergence(failure, contracting=fell < CONTRACTING)
 
 
 def _require_reason(system: SlabEquations, it: Iterate, scale: float) -> None:

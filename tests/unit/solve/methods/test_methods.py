@@ -103,8 +103,9 @@ def test_where_iterates_contract_poorly_newton_takes_over(block: Callable[..., M
     """A plain fixed point at a long slab: on its own it fails, handed over it converges."""
     system = slab(block(supports=(Fixed(on="top"),), timing=Impulse()), 0.9)
     plain = FixedPoint(depth=0, limit=30)
-    with pytest.raises(NoConvergence):
+    with pytest.raises(NoConvergence) as failed:
         solve(system, replace(plain, handover=False))
+    assert not failed.value.contracting
     solution = solve(system, plain)
     solved(system, solution)
     assert solution.last.memory.factorisations > 1
@@ -184,6 +185,9 @@ def test_a_limit_that_is_too_small_is_a_failure(method: FixedPoint | Newton, blo
     system = slab(block(timing=Impulse()))
     with pytest.raises(NoConvergence, match="1 iterations leave a relative change"):
         solve(system, replace(method, limit=1))
+    with pytest.raises(NoConvergence) as failed:
+        solve(system, replace(method, limit=3))
+    assert failed.value.contracting
 
 
 @pytest.mark.filterwarnings("error")
@@ -193,8 +197,9 @@ def test_an_inverted_guess_is_a_failure_without_warnings(
 ) -> None:
     system = slab(block())
     crushed = -20.0 * system.model.parts[0].mesh.points * [1.0, 0.0] / system.path.span
-    with pytest.raises(NoConvergence, match="admissible"):
+    with pytest.raises(NoConvergence, match="admissible") as failed:
         solve(system, method, crushed)
+    assert not failed.value.contracting
 
 
 def test_an_iteration_at_the_rounding_level_is_accepted(block: Callable[..., Model]) -> None:
