@@ -19,6 +19,8 @@ from softway.model.scene import State
 log = logging.getLogger(__name__)
 AHEAD = 2.0
 """Time within which contacts count as soon closed, in those between two changes of the mesh."""
+SELDOM = 5
+"""Number of changes in a row that were refused after which tries become no more seldom."""
 
 
 def adaptive_march(
@@ -94,14 +96,23 @@ def _prepared(
 def _change(on: AdaptedScene, now: MarchState) -> Change[AdaptedScene] | None:
     """Change to the meshes that a state asks for, after every ``every`` slabs; None if they stay.
 
-    Meshes stay where massless nodes find no equilibrium on new ones.
+    Meshes stay where massless nodes find no equilibrium on new ones; then the next change is tried after twice as many
+    slabs.
     """
-    if now.slabs % _every(on):
+    refused = 0 if now.adapted is None else now.adapted.refused
+    if now.slabs % (_every(on) << min(refused, SELDOM)):
         return None
     new = on.wanted(now, _energy(now), _ahead(on, now))
     if new is on:
         return None
-    return _changed(on, new, now)
+    return _changed(on, new, now) or _refused(on, now)
+
+
+def _refused(on: AdaptedScene, now: MarchState) -> Change[AdaptedScene] | None:
+    """The same meshes, with one more change that was refused."""
+    if now.adapted is None:
+        return None
+    return Change(on=on, now=replace(now, adapted=replace(now.adapted, refused=now.adapted.refused + 1)))
 
 
 def _changed(on: AdaptedScene, new: AdaptedScene, now: MarchState) -> Change[AdaptedScene] | None:

@@ -96,10 +96,13 @@ class StepHistory:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class AdaptedMeshes:
-    """Meshes of a march that adapt: the leaves of each solid by name, and the greatest energy so far [J]."""
+    """Meshes of a march that adapt: the leaves of each solid by name, the greatest energy so far [J], and the number of
+    changes in a row that were ``refused`` because massless nodes found no equilibrium.
+    """
 
     leaves: Mapping[str, Leaves]
     energy: float
+    refused: int = 0
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -26,6 +26,9 @@ from softway.solve.static.static_equilibrium import (
 
 STEPS = 600
 """Greatest number of steps."""
+WINDOW = 30
+"""Number of steps with one lift over which their lengths are compared: those that would not end within ``STEPS`` are
+given up."""
 LEAST, MOST = 2.0**-16, 2.0**16
 """Least and greatest lift of the diagonal, relative to the sums of absolute entries of the first stiffness."""
 BEGIN = 0.02
@@ -75,7 +78,7 @@ def proximal_equilibrium(
     least = max(EXACT * model.extent(u), rounded(model.space.greatest(model.points)))
     at = _At.of(model, u, dofs, load, glue)
     sums = np.asarray(abs(at.stiffness).sum(axis=0)).ravel()
-    lift, last, before, longest, quiet = 0.0, None, np.zeros(dofs.size), most, 0
+    lift, last, before, longest, quiet, steps = 0.0, None, np.zeros(dofs.size), most, 0, list[tuple[float, float]]()
     for count in range(STEPS):
         pairs = pairs.with_kept_facets(at.u) if count == KEEP_AFTER and pairs.fixed_rows is None else pairs
         free = _Step(model=model, rows=pairs.at(at.u), at=at, dofs=dofs, last=last)
@@ -87,12 +90,32 @@ def proximal_equilibrium(
                 raise NumericsError("no static equilibrium by proximal steps", time, REMEDY)
         (step, force, active), at = found
         last = force, active
-        quiet = quiet + 1 if model.space.greatest(step) <= least else 0
+        steps.append((model.space.greatest(step), lift))
+        quiet = quiet + 1 if steps[-1][0] <= least else 0
         if quiet >= (QUIET if lift > 0.0 else 1):
             return static_state(at.u, free.rows, force, active)
+        if not quiet and _endless(steps, least):
+            raise NumericsError(f"no static equilibrium by {count + 1} proximal steps", time, REMEDY)
         longest = SHORTER * longest if model.space.dot(step, before) < 0.0 else min(longest / SHORTER, most)
         before = step
     raise NumericsError(f"no static equilibrium by {STEPS} proximal steps", time, REMEDY)
+
+
+def _endless(steps: list[tuple[float, float]], least: float) -> bool:
+    """True if steps that go on to shrink as they did last do not reach the ``least`` length [m] within ``STEPS``.
+
+    ``steps`` are lengths [m] and lifts; where the lift has changed the rate will change as well.
+
+    Examples
+    --------
+    >>> _endless([(0.5**n, 0.0) for n in range(60)], 1e-25), _endless([(0.97**n, 0.0) for n in range(60)], 1e-25)
+    (False, True)
+    """
+    last = steps[-WINDOW:]
+    if len(steps) < 2 * WINDOW or len({lift for _, lift in last}) > 1:
+        return False
+    rate = np.log(last[-1][0] / last[0][0]) / (WINDOW - 1)
+    return bool(np.log(last[-1][0] / least) > (STEPS - len(steps)) * abs(rate))
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)

@@ -10,6 +10,7 @@ import softway as sw
 from softway.errors import InputError, NumericsError
 from softway.marching.march import march
 from softway.marching.remeshing import adaptive_march
+from softway.marching.state.march_state import MarchState
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.generators.shapes import disc
 from softway.record.storage.serialisation import packed, unpacked
@@ -68,11 +69,18 @@ def test_states_of_other_meshes_are_refused(whole: list[sw.Step]) -> None:
 
 
 def test_meshes_stay_where_massless_nodes_find_no_equilibrium(monkeypatch: pytest.MonkeyPatch) -> None:
-    def refused(*_: object) -> None:
+    """Tries become more seldom: after 3 slabs, then at the multiples of 6 and of 12."""
+    tried = list[int]()
+
+    def refused(on: object, new: object, now: MarchState) -> None:
+        tried.append(now.slabs)
         raise NumericsError("no static equilibrium", 0.0)
 
     monkeypatch.setattr(adaptive_march, "carried_over", refused)
     steps = list(march(SCENE, until=END, step=STEP))
     assert steps[-1].after.time == pytest.approx(END)
+    assert tried == [3, 6, 12]
+    again = list(march(SCENE, until=END, step=STEP, state=unpacked(*packed(steps[7].march_state))))
+    assert packed(again[-1].march_state)[0] == packed(steps[-1].march_state)[0]
     assert not any(step.transfers for step in steps)
     assert {step.model for step in steps} == {steps[0].model}
