@@ -27,13 +27,16 @@ class Overlap:
         (s, k, k) with both coordinates on the slave simplex.
     cross
         (s, k, k) with one coordinate on the slave simplex, the other on the master simplex.
+    change
+        (s,) change of the weight of a pair with the cosine of the angle between its surfaces, relative to the weight.
 
     Examples
     --------
     Two pairs of segments: the overlap of the first has a length of one, that of the second is half of it:
 
     >>> own = np.array([1.0, 0.5])[:, None, None] * np.array([[2.0, 1.0], [1.0, 2.0]]) / 6.0
-    >>> common = Overlap(slave=np.array([0, 0]), master=np.array([3, 4]), own=own, cross=own)
+    >>> both = {"slave": np.array([0, 0]), "master": np.array([3, 4])}
+    >>> common = Overlap(**both, own=own, cross=own, change=np.zeros(2))
     >>> common.measure.round(12).tolist(), common.mass(2).sum(axis=(1, 2)).round(12).tolist()
     ([1.0, 0.5], [1.5, 0.0])
     """
@@ -42,6 +45,7 @@ class Overlap:
     master: IntArray
     own: Array
     cross: Array
+    change: Array
 
     @property
     def measure(self) -> Array:
@@ -57,7 +61,7 @@ class Overlap:
     def pairs(self, count: int) -> Pairs:
         """Pairs of the slave simplices for the loops."""
         first = np.searchsorted(self.slave, np.arange(count + 1))
-        return Pairs(first=first, master=self.master, own=self.own, cross=self.cross)
+        return Pairs(first=first, master=self.master, own=self.own, cross=self.cross, change=self.change)
 
 
 def overlap(
@@ -84,5 +88,7 @@ def overlap(
         room = triangle_room(len(slave), len(master))
         count = triangle_overlap(below, slave, above, master, i, j, room, pair, own, cross)
     count = keep_near(below, slave, above, master, areas, i, j, pairs.limit, count, pair, own, cross)
-    count = fade(areas, above, master, i, j, count, pair, own, cross, np.empty((1, below.shape[1])))
-    return Overlap(slave=i[pair[:count]], master=j[pair[:count]], own=own[:count], cross=cross[:count])
+    change = np.empty(count)
+    count = fade(areas, above, master, i, j, count, pair, own, cross, change, np.empty((1, below.shape[1])))
+    kept = pair[:count]
+    return Overlap(slave=i[kept], master=j[kept], own=own[:count], cross=cross[:count], change=change[:count])

@@ -28,7 +28,7 @@ def gap_functions(facets, points, size, mass, whole, warp, coefficients, values,
             for a in range(k):
                 for c in range(k):
                     covered += mass[i, a, c]
-                    _add(whole, i - first, a, c, mass[i, a, c], split)
+                    add_mass(whole, i - first, a, c, mass[i, a, c], split)
         coverage = covered / area
         if not coverage > LEAST:
             whole[:b, :b] = 0.0
@@ -38,38 +38,42 @@ def gap_functions(facets, points, size, mass, whole, warp, coefficients, values,
         for i in range(first, end):
             for j in range(b):
                 for a in range(k):
-                    values[i, j, a] = _at_corner(coefficients, j, i - first, a, split)
+                    values[i, j, a] = at_corner(coefficients, j, i - first, a, split)
 
 
 @uncounted
-def _add(whole, piece, a, c, amount, split):
+def add_mass(whole, piece, a, c, amount, split):
     """Add the integral of two coordinates of a simplex to those (b, b) of the shape functions of the facet."""
     if not split:
         whole[a, c] += amount
         return
     for i in range(4):
-        one = shape(i, piece, a)
+        one = shape(i, piece, a, split)
         if one != 0.0:
             for j in range(4):
-                whole[i, j] += one * shape(j, piece, c) * amount
+                whole[i, j] += one * shape(j, piece, c, split) * amount
 
 
 @uncounted
-def shape(node, piece, corner):
-    """Shape function of a four-node facet at a corner of a simplex: the node ``piece``, the next one, the middle."""
+def shape(node, piece, corner, split):
+    """Shape function of a facet at a corner of one of its simplices; the corners of those of a four-node facet are the
+    node ``piece``, the next one and the middle.
+    """
+    if not split:
+        return 1.0 if node == corner else 0.0
     if corner == 2:
         return QUARTER
     return 1.0 if node == (piece + corner) % 4 else 0.0
 
 
 @uncounted
-def _at_corner(coefficients, function, piece, corner, split):
-    """Value of a test function at a corner of a simplex."""
+def at_corner(coefficients, function, piece, corner, split):
+    """Value, at a corner of a simplex, of a function with ``coefficients`` (b, b) of the shape functions."""
     if not split:
         return coefficients[function, corner]
     value = 0.0
     for node in range(4):
-        value += coefficients[function, node] * shape(node, piece, corner)
+        value += coefficients[function, node] * shape(node, piece, corner, split)
     return value
 
 

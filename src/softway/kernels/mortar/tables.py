@@ -46,13 +46,16 @@ class Functions(NamedTuple):
 
 class Pairs(NamedTuple):
     """Pairs of simplices that overlap: those of a slave simplex are ``first[p]`` to ``first[p + 1]``, with the master
-    simplices ``master`` (s,) and the integrals ``own`` and ``cross`` (s, k, k) of products of coordinates [m^r].
+    simplices ``master`` (s,) and the integrals ``own`` and ``cross`` (s, k, k) of products of coordinates [m^r], with
+    the weights of the pairs; ``change`` (s,) is the change of the weight with the cosine of the angle between the
+    surfaces, relative to the weight.
     """
 
     first: IntArray
     master: IntArray
     own: Array
     cross: Array
+    change: Array
 
 
 class Distances(NamedTuple):
@@ -70,14 +73,12 @@ class Distances(NamedTuple):
 
 
 class Fading(NamedTuple):
-    """Pairs whose weights change: the ``number`` (s,) of each pair among them, -1 where the weight does not change, how
-    many are ``found`` (1,), and the changes under a motion of the corners, relative to the weight, ``slave`` and
-    ``master`` (f, k, d) [1/m].  Beside them the vertices ``points`` (v, d) of the slave [m], and the length or area
-    ``size`` (p,) of its simplices [m^r].
+    """Pairs whose weights change: the ``number`` (s,) of each pair among them, -1 where the weight does not change, and
+    the changes under a motion of the corners, relative to the weight, ``slave`` and ``master`` (f, k, d) [1/m].  Beside
+    them the vertices ``points`` (v, d) of the slave [m], and the length or area ``size`` (p,) of its simplices [m^r].
     """
 
     number: IntArray
-    found: IntArray
     slave: Array
     master: Array
     points: Array
@@ -86,7 +87,7 @@ class Fading(NamedTuple):
 
 class FacetSums(NamedTuple):
     """Place for one facet of up to b nodes: integrals ``mass`` (b, b) of its shape functions and their ``inverse``,
-    integrals ``apart`` (b,) of the shape functions and a distance and their product ``dual`` with the inverse, the
+    integrals ``apart`` (b,) of the shape functions and a distance, their product ``dual`` (1, b) with the inverse, the
     warping ``warp`` (4,), and the numbers ``known`` (4,).
     """
 

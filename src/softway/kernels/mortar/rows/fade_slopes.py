@@ -9,7 +9,7 @@ from softway.kernels.mortar.dual_basis import (
     warping_change,
     warping_of,
 )
-from softway.kernels.mortar.gap_functions import shape
+from softway.kernels.mortar.gap_functions import add_mass, at_corner, shape
 from softway.kernels.mortar.rows.spread import spread_terms
 
 COVERAGE, AREA, TOTAL, PART = 0, 1, 2, 3
@@ -51,18 +51,16 @@ def _sum(first, end, mean, split, pairs, distances, sums):
     """Write the integrals ``mass`` (b, b) of the shape functions of a facet, and those ``apart`` (b,) of the shape
     functions and the distance from the ``mean`` one.
     """
-    b, k = len(sums.apart), pairs.own.shape[1]
+    k = pairs.own.shape[1]
     sums.mass[:], sums.apart[:] = 0.0, 0.0
     for i in range(first, end):
         for s in range(pairs.first[i], pairs.first[i + 1]):
             for a in range(k):
                 apart = _apart(s, a, mean, pairs, distances)
-                for n in range(b):
-                    one = _shape(n, i - first, a, split)
-                    sums.apart[n] += one * apart
-                    for e in range(k):
-                        for m in range(b):
-                            sums.mass[n, m] += one * _shape(m, i - first, e, split) * pairs.own[s, a, e]
+                for n in range(len(sums.apart)):
+                    sums.apart[n] += shape(n, i - first, a, split) * apart
+                for e in range(k):
+                    add_mass(sums.mass, i - first, a, e, pairs.own[s, a, e], split)
 
 
 @uncounted
@@ -75,14 +73,8 @@ def _apart(s, a, mean, pairs, distances):
 
 
 @uncounted
-def _shape(node, piece, corner, split):
-    """Shape function of a facet at a corner of one of its simplices."""
-    return shape(node, piece, corner) if split else 1.0 * (node == corner)
-
-
-@uncounted
 def _solve(facet, place, facets, fading, sums):
-    """Write the ``inverse`` of the mass, its product ``dual`` with the integrals of the distance, and ``known``:
+    """Write the ``inverse`` of the mass, its product ``dual`` (1, b) with the integrals of the distance, and ``known``:
     covered fraction and area of the facet, integral of the shape function ``place``, part of the shape functions.
     """
     first, end, covered, known, b = facets.simplex[facet], facets.simplex[facet + 1], 0.0, sums.known, 0
@@ -107,36 +99,30 @@ def _solve(facet, place, facets, fading, sums):
         invert(sums.inverse, b)
         for n in range(b):
             for m in range(b):
-                sums.dual[n] += sums.inverse[n, m] * sums.apart[m]
+                sums.dual[0, n] += sums.inverse[n, m] * sums.apart[m]
 
 
 @uncounted
 def _amount(s, piece, place, mean, split, values, pairs, distances, sums):
     """Change of the integral of a test function and the distance, per relative change of the weight of a pair."""
-    k, b, amount, own, own_place, bent = len(values), len(sums.apart), 0.0, 0.0, 0.0, 0.0
+    k, amount, own, own_place, bent = len(values), 0.0, 0.0, 0.0, 0.0
     for a in range(k):
         amount += values[a] * _apart(s, a, mean, pairs, distances)
-        inverse = dual = 0.0
+        here, one = shape(place, piece, a, split), at_corner(sums.inverse, place, piece, a, split)
         for e in range(k):
-            own += pairs.own[s, a, e]
-            own_place += _shape(place, piece, a, split) * pairs.own[s, a, e]
-        for n in range(b):
-            inverse += _shape(n, piece, a, split) * sums.inverse[place, n]
-        for e in range(k):
-            dual = 0.0
-            for n in range(b):
-                dual += _shape(n, piece, e, split) * sums.dual[n]
-            bent += inverse * pairs.own[s, a, e] * dual
-    part, total = sums.known[PART], sums.known[TOTAL]
+            mass = pairs.own[s, a, e]
+            own += mass
+            own_place += here * mass
+            bent += one * mass * at_corner(sums.dual, 0, piece, e, split)
+    part, total, dual = sums.known[PART], sums.known[TOTAL], sums.dual[0, place]
     if part < 1.0:
-        inverse = dual = 0.0
-        for n in range(b):
-            inverse += sums.inverse[place, n] * sums.warp[n]
-            dual += sums.warp[n] * sums.dual[n]
-        bent += warping_change(own, sums.known[COVERAGE]) * inverse * dual
-        amount += (1.0 - part) * (own_place * sums.dual[place] - total * bent)
-        turned = sums.apart[place] - total * sums.dual[place]
-        amount += mean_change(sums.known[COVERAGE]) * own / sums.known[AREA] * turned
+        stiff = slack = 0.0
+        for n in range(sums.dual.shape[1]):
+            stiff += sums.inverse[place, n] * sums.warp[n]
+            slack += sums.warp[n] * sums.dual[0, n]
+        bent += warping_change(own, sums.known[COVERAGE]) * stiff * slack
+        amount += (1.0 - part) * (own_place * dual - total * bent)
+        amount += mean_change(sums.known[COVERAGE]) * own / sums.known[AREA] * (sums.apart[place] - total * dual)
     return amount
 
 

@@ -12,11 +12,12 @@ degrees not at all."""
 
 
 @uncounted_kernel
-def fade(areas, above, other, i, j, count, pair, own, cross, room):
+def fade(areas, above, other, i, j, count, pair, own, cross, change, room):
     """Multiply the integrals of the first ``count`` pairs by their weights, in place.
 
     Arguments: normals ``areas`` (p, d) of the slave simplices, vertices and corners of the master, pairs i, j (s,), the
-    overlaps, and place for a normal ``room`` (1, d).  Returns the number of pairs with weight.
+    overlaps, and place for a normal ``room`` (1, d).  Writes the ``change`` (s,) of the weights with the cosines,
+    relative to the weights, and returns the number of pairs with weight.
     """
     kept, k = 0, own.shape[1]
     for s in range(count):
@@ -25,8 +26,9 @@ def fade(areas, above, other, i, j, count, pair, own, cross, room):
         for x in range(areas.shape[1]):
             dot -= areas[slave, x] * room[0, x]
             square += areas[slave, x] ** 2
-        weight = _weight(dot / (np.sqrt(square) * size)) if size > 0.0 and square > 0.0 else 0.0
-        pair[kept] = pair[s]
+        cosine = dot / (np.sqrt(square) * size) if size > 0.0 and square > 0.0 else 0.0
+        weight = _weight(cosine)
+        pair[kept], change[kept] = pair[s], _change(cosine)
         for a in range(k):
             for b in range(k):
                 own[kept, a, b], cross[kept, a, b] = weight * own[s, a, b], weight * cross[s, a, b]
@@ -49,27 +51,20 @@ def _change(cosine):
 
 
 @uncounted_kernel
-def weight_changes(slave, master, pairs, above, room, fading):
+def weight_slopes(slave, master, pairs, above, room, fading):
     """Write how the weights of pairs change, see :class:`~softway.kernels.mortar.tables.Fading`.
 
     Arguments: tables of both surfaces and of the pairs, vertices of the master, and room as for
     :func:`~softway.kernels.mortar.rows.distance_slopes.distance_slopes`.
     """
-    below, d = fading.points, above.shape[1]
     for i in range(len(slave.corner)):
-        if pairs.first[i] < pairs.first[i + 1]:
-            gradients(below, slave.corner, i, room.square, room.gradient)
         for s in range(pairs.first[i], pairs.first[i + 1]):
-            cosine, size = 0.0, vector_area(above, master.corner, pairs.master[s], room.normal, 0)
-            for x in range(d):
-                cosine -= room.square[0, x] * room.normal[0, x] / size
-            change, fading.number[s] = _change(cosine), -1
-            if change > 0.0:
-                fading.number[s], number = fading.found[0], fading.found[0]
-                fading.found[0] += 1
+            number = fading.number[s]
+            if number >= 0:
+                gradients(fading.points, slave.corner, i, room.square, room.gradient)
                 gradients(above, master.corner, pairs.master[s], room.normal, room.along)
-                _turn(change, room.gradient, room.normal, room.square, fading.slave[number])
-                _turn(change, room.along, room.square, room.normal, fading.master[number])
+                _turn(pairs.change[s], room.gradient, room.normal, room.square, fading.slave[number])
+                _turn(pairs.change[s], room.along, room.square, room.normal, fading.master[number])
 
 
 @uncounted

@@ -4,7 +4,7 @@ import numpy as np
 
 from softway.arrays import Array, IntArray
 from softway.kernels.mortar.rows.distance_slopes import distance_slopes, slope_room
-from softway.kernels.mortar.rows.fading import weight_changes
+from softway.kernels.mortar.rows.fading import weight_slopes
 from softway.kernels.mortar.rows.row_sums import sum_rows
 from softway.kernels.mortar.tables import (
     Distances,
@@ -84,16 +84,17 @@ def _distances(
 
 def _fading(slave: Vertices, master: Vertices, pairs: Pairs, vertices: tuple[Array, Array], size: Array) -> Fading:
     """Pairs whose weights change."""
-    count, k, d = len(pairs.master), slave.corner.shape[1], vertices[0].shape[1]
+    fades, k, d = pairs.change > 0.0, slave.corner.shape[1], vertices[0].shape[1]
+    count = int(np.count_nonzero(fades))
     fading = Fading(
-        number=np.empty(count, np.int64),
-        found=np.zeros(1, np.int64),
+        number=np.where(fades, np.cumsum(fades) - 1, -1),
         slave=np.empty((count, k, d)),
         master=np.empty((count, k, d)),
         points=vertices[0],
         size=size,
     )
-    weight_changes(slave, master, pairs, vertices[1], slope_room(k, d), fading)
+    if count:
+        weight_slopes(slave, master, pairs, vertices[1], slope_room(k, d), fading)
     return fading
 
 
@@ -111,7 +112,7 @@ def _room(u: int, above: Array, facets: Facets) -> Room:
         mean=np.empty(d),
         height=np.empty(1),
         terms=np.empty(1 + d),
-        facet=FacetSums(*(np.zeros(shape) for shape in ((b, b), (b, b), (b,), (b,), (4,), (4,)))),
+        facet=FacetSums(*(np.zeros(shape) for shape in ((b, b), (b, b), (b,), (1, b), (4,), (4,)))),
     )
 
 

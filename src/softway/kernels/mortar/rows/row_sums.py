@@ -27,7 +27,7 @@ def sum_rows(first, slave, master, facets, functions, pairs, distances, fading, 
             covered += _own_part(use, slave, facets, functions, room)
             total += _common_part(use, slave, master, facets, functions, pairs, distances, room)
         _spread_opposite(master, room)
-        if fading.found[0] > 0 and covered > 0.0 and total > 0.0:
+        if len(fading.slave) > 0 and covered > 0.0 and total > 0.0:
             mean = (_distance_sum(room, x) - room.height[0]) / total
             for use in range(facets.start[r], facets.start[r + 1]):
                 add_fades(use, mean, slave, master, facets, functions, pairs, distances, fading, room)
