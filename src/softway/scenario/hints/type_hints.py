@@ -20,6 +20,14 @@ REGISTRIES: Mapping[type, str] = {
     FrictionLaw: "softway.laws.friction",
     ImpactRule: "softway.contact.impact_rule",
 }
+USUAL: Mapping[str, tuple[str, ...]] = {
+    "end": ("until", "duration", "stop", "t_end", "tend", "tmax", "total"),
+    "step": ("dt", "timestep", "time_step", "increment"),
+    "E": ("young", "youngs_modulus", "young_modulus", "elastic_modulus", "modulus"),
+    "nu": ("poisson", "poisson_ratio", "poissons_ratio"),
+    "density": ("rho",),
+}
+"""Keys, and words for the same in other programs."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,15 +116,19 @@ def open_protocols(options: Iterable[Any]) -> tuple[type, ...]:
 
 
 def nearest(word: str, known: Iterable[str]) -> str:
-    """Remedy for an unknown word: the closest known word, then all known words.
+    """Remedy for an unknown word: a known word for the same, or the closest one, then all known words.
 
     Examples
     --------
     >>> nearest("nuu", ["E", "nu"])
     "did you mean 'nu'? known: E, nu"
+    >>> nearest("until", ["control", "end"])
+    "did you mean 'end'? known: control, end"
     """
     words = list(known)
-    close = difflib.get_close_matches(word, words, n=1, cutoff=0.5) or [w for w in words if w.lower() == word.lower()]
+    same = [w for w in words if word.lower() in USUAL.get(w, ())]
+    near = difflib.get_close_matches(word, words, n=1, cutoff=0.5)
+    close = same or near or [w for w in words if w.lower() == word.lower()]
     guess = f"did you mean {close[0]!r}? " if close else ""
     return f"{guess}known: {', '.join(words) or 'none'}"
 
