@@ -24,7 +24,7 @@ from softway.solve.static.static_equilibrium import (
     static_state,
 )
 
-STEPS = 600
+STEPS = 300
 """Greatest number of steps."""
 WINDOW = 30
 """Number of steps with one lift over which their lengths are compared: those that would not end within ``STEPS`` are
