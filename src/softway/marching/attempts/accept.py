@@ -2,7 +2,7 @@
 
 import logging
 from collections.abc import Iterator
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from typing import cast
 
 import numpy as np
@@ -41,17 +41,18 @@ class _Way:
     dashpots: Dashpots | None = None
 
 
-@dataclass(slots=True, eq=False)
-class _Failures:
-    """Reasons of the rejections so far, and whether the last attempt lacked iterations, not a solution."""
+@dataclass(frozen=True, slots=True, eq=False, kw_only=True)
+class _Rejection:
+    """Reason of a rejection, and whether the attempt lacked iterations, not a solution."""
 
-    reasons: list[str] = field(default_factory=list)
-    contracting: bool = False
+    reason: str
+    contracting: bool
 
-    def add(self, span: float, failure: Exception) -> None:
-        """A rejection of a slab of a length [s]."""
-        self.reasons.append(f"h = {span:.3g} s: {failure}")
-        self.contracting = isinstance(failure, NoConvergence) and failure.contracting
+    @classmethod
+    def of(cls, span: float, failure: Exception) -> "_Rejection":
+        """Rejection of a slab of a length [s]."""
+        contracting = isinstance(failure, NoConvergence) and failure.contracting
+        return cls(reason=f"h = {span:.3g} s: {failure}", contracting=contracting)
 
 
 def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory: OperatorMemory) -> AcceptedSlab:
@@ -66,19 +67,20 @@ def accept_slab(stepper: Stepper, march_state: MarchState, length: float, memory
         If no slab was accepted.
     """
     control, history = march_state.settings.control, march_state.step_history
-    crawls, failures = history.recent_rejections > control.patience, _Failures()
-    for way in _ways(stepper, march_state, length, crawls, failures):
-        found = _cut_back(stepper, march_state, way, memory, crawls, failures)
+    crawls, rejected = history.recent_rejections > control.patience, list[_Rejection]()
+    for way in _ways(stepper, march_state, length, crawls, rejected):
+        found = _cut_back(stepper, march_state, way, memory, crawls, rejected)
         if found is not None:
             return found
         memory = memory.failed()
     now = march_state.state
-    told = reason(march_state, failures.reasons, crawls) + touching(stepper.model, now) + crushed(stepper.model, now)
+    reasons = [one.reason for one in rejected]
+    told = reason(march_state, reasons, crawls) + touching(stepper.model, now) + crushed(stepper.model, now)
     raise NumericsError(told, now.time, possible_remedies(stepper, march_state))
 
 
 def _ways(
-    stepper: Stepper, march_state: MarchState, length: float, crawls: bool, failures: _Failures
+    stepper: Stepper, march_state: MarchState, length: float, crawls: bool, rejected: list[_Rejection]
 ) -> Iterator[_Way]:
     """Ways to try the next slab, one after another.
 
@@ -92,15 +94,20 @@ def _ways(
         yield _Way(length=length, least=least)
         return
     yield _Way(length=length, least=0.75 * length if history.dashpots else short)
-    if not failures.contracting:
+    if not (rejected and rejected[-1].contracting):
         yield _Way(length=min(length, history.span), least=short, dashpots=dashpots(stepper.model, march_state))
     yield _Way(length=length if history.dashpots else short, least=least)
 
 
 def _cut_back(
-    stepper: Stepper, march_state: MarchState, way: _Way, memory: OperatorMemory, crawls: bool, failures: _Failures
+    stepper: Stepper,
+    march_state: MarchState,
+    way: _Way,
+    memory: OperatorMemory,
+    crawls: bool,
+    rejected: list[_Rejection],
 ) -> AcceptedSlab | None:
-    """First accepted slab of a way; None without one.  Its rejections are added to the ``failures`` before.
+    """First accepted slab of a way; None without one.  Its rejections are added to those before.
 
     A slab that fails with an old operator is first tried again with a new one, one in which Newton's method does not
     converge by the fixed point, and one with an indefinite operator by a positive definite one, and then by Newton's
@@ -112,30 +119,30 @@ def _cut_back(
     length, least, halted, positive_definite = way.length, way.least, False, False
     memory = memory if way.dashpots is None else without_operator(memory)
     fresh, first, unbalanced = memory.origin is None, stepper, PATIENCE if history.energy_along_motion else 0
-    while length > least and not (crawls and failures.reasons):
+    while length > least and not (crawls and rejected):
         heed(stepper.cancel, now.time)
         end = slab_end(stepper.ends, settings.until, now.time, length)
         slab = Slab(start=now.time, end=end, weight=_weight(stepper, march_state, way))
         try:
             attempt = _attempt(stepper, march_state, slab, way, unbalanced >= PATIENCE, positive_definite)
             found = audited_slab(stepper, march_state, slab, memory, attempt)
-            return _accepted(found, way, tuple(failures.reasons), halted)
+            return _accepted(found, way, tuple(one.reason for one in rejected), halted)
         except Dropped as failure:
             length, memory = failure.length, failure.memory
-            failures.add(slab.span, failure)
+            rejected.append(_Rejection.of(slab.span, failure))
         except Halts as stop:
             length, halted, least = stop.fraction * length, True, settings.control.least * history.span
             continue
         except (TooFast, Unbalanced) as failure:
             length = 0.5 * length
             unbalanced += isinstance(failure, Unbalanced) and not above(slab.span, history.span)
-            failures.add(slab.span, failure)
+            rejected.append(_Rejection.of(slab.span, failure))
         except NoConvergence as failure:
-            failures.add(slab.span, failure)
+            rejected.append(_Rejection.of(slab.span, failure))
             rule, positive_definite = _other_way(first, stepper.rule, attempt)
             length = 0.5 * length if fresh and rule is first.rule and not positive_definite else length
             stepper, fresh, memory = replace(first, rule=rule), True, memory.failed()
-        log.info("slab at t = %.6g s rejected: %s", now.time, failures.reasons[-1])
+        log.info("slab at t = %.6g s rejected: %s", now.time, rejected[-1].reason)
     return None
 
 
