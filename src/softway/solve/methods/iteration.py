@@ -163,7 +163,8 @@ def iterate(system: SlabEquations, iterates: Iterator[Iterate], tolerance: float
         if count - begun >= limit or count >= LONGEST * limit:
             break
     if closest == np.inf:
-        fell = contraction(first, it.change, count) if np.isfinite(it.change) else np.inf
+        # there is an iterate: methods yield one at least
+        fell = contraction(first, it.change, count) if np.isfinite(it.change) else np.inf  # type: ignore[union-attr]
         raise NoConvergence(failure, contracting=fell < CONTRACTING)
 
 
