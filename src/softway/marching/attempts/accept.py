@@ -85,13 +85,15 @@ def _ways(
     """Ways to try the next slab, one after another.
 
     After a slab with dashpots the next one is tried once without them.  Where an iteration only lacks iterations, and
-    in a march that crawls, there are none: the method fails, not the equilibrium.
+    in a march that crawls, there are none: the method fails, not the equilibrium.  On meshes that have just changed
+    there are neither dashpots nor the shortest slabs: the old meshes are tried first.
     """
     history = march_state.step_history
     least = march_state.settings.control.least * history.span
     short = max(least, SHORT * history.span)
-    if crawls or not (history.dashpots or stepper.dashpots) or not dashpots_serve(stepper):
-        yield _Way(length=length, least=least)
+    allowed = (history.dashpots or stepper.dashpots) and dashpots_serve(stepper)
+    if crawls or not allowed or march_state.meshes_changed:
+        yield _Way(length=length, least=short if march_state.meshes_changed else least)
         return
     yield _Way(length=length, least=0.75 * length if history.dashpots else short)
     if not (rejected and rejected[-1].contracting):

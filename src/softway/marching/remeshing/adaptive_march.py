@@ -105,7 +105,13 @@ def _change(on: AdaptedScene, now: MarchState) -> Change[AdaptedScene] | None:
     new = on.wanted(now, _energy(now), _ahead(on, now))
     if new is on:
         return None
-    return _changed(on, new, now) or _refused(on, now)
+    found = _changed(on, new, now)
+    return _refused(on, now) if found is None else replace(found, now=_just_changed(found.now))
+
+
+def _just_changed(now: MarchState) -> MarchState:
+    """The state on new meshes: where its next slab fails it goes back to the old ones."""
+    return now if now.adapted is None else replace(now, adapted=replace(now.adapted, changed=now.slabs))
 
 
 def _refused(on: AdaptedScene, now: MarchState) -> Change[AdaptedScene] | None:

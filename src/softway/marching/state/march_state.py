@@ -96,12 +96,14 @@ class StepHistory:
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
 class AdaptedMeshes:
-    """Meshes of a march that adapt: the leaves of each solid by name, the greatest energy so far [J], and the number of
-    changes in a row that were ``refused`` because massless nodes found no equilibrium.
+    """Meshes of a march that adapt: the leaves of each solid by name, and the greatest energy so far [J]; the number of
+    slabs at the last change from which the slab after it may go back, and of changes in a row that were ``refused``
+    because massless nodes found no equilibrium.
     """
 
     leaves: Mapping[str, Leaves]
     energy: float
+    changed: int = 0
     refused: int = 0
 
 
@@ -163,8 +165,15 @@ class MarchState:
 
     def asked(self, settings: Settings, history: StepHistory, memory: OperatorMemory) -> "MarchState":
         """Initial march state for other ``settings``, with a new ``history`` and an empty ``memory``."""
+        adapted = None if self.adapted is None else replace(self.adapted, changed=0)
         remeshed = None if self.remeshed is None else replace(self.remeshed, changed=0)
-        return replace(self, settings=settings, step_history=history, memory=memory, slabs=0, remeshed=remeshed)
+        new = replace(self, settings=settings, step_history=history, memory=memory, slabs=0)
+        return replace(new, adapted=adapted, remeshed=remeshed)
+
+    @property
+    def meshes_changed(self) -> bool:
+        """True if the meshes have changed since the last slab, and the old ones are still to be had."""
+        return self.adapted is not None and 0 < self.adapted.changed == self.slabs
 
     def fitting(self, model: Model) -> "MarchState":
         """Check that the state belongs to this model, and return it.

@@ -1,13 +1,17 @@
 """A march on adapted meshes that goes on from a stored state has the same bits."""
 
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 import pytest
 from adapting import adapting
 
 import softway as sw
-from softway.errors import InputError, NumericsError
+from softway.errors import InputError, NoConvergence, NumericsError
+from softway.marching.attempts import accept
+from softway.marching.attempts.audited_slab import AcceptedSlab
+from softway.marching.attempts.dashpot_slab import SHORT
 from softway.marching.march import march
 from softway.marching.remeshing import adaptive_march
 from softway.marching.state.march_state import MarchState
@@ -84,3 +88,23 @@ def test_meshes_stay_where_massless_nodes_find_no_equilibrium(monkeypatch: pytes
     assert packed(again[-1].march_state)[0] == packed(steps[-1].march_state)[0]
     assert not any(step.transfers for step in steps)
     assert {step.model for step in steps} == {steps[0].model}
+
+
+def test_a_slab_that_fails_on_new_meshes_goes_back_to_the_old_ones(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Before its shortest lengths, and without dashpots."""
+    solved, tried = accept.audited_slab, list[float]()
+
+    def failing(*given: Any) -> AcceptedSlab:
+        _, march_state, slab, _, attempt = given
+        if not march_state.meshes_changed:
+            return solved(*given)
+        assert attempt.dashpots is None
+        tried.append(slab.span)
+        raise NoConvergence("no equilibrium")
+
+    monkeypatch.setattr(accept, "audited_slab", failing)
+    steps = list(march(SCENE, until=END, step=STEP))
+    assert steps[-1].after.time == pytest.approx(END)
+    assert {step.model for step in steps} == {steps[0].model}
+    assert SHORT * STEP < min(tried) < 2.0 * SHORT * STEP
+    assert not any(step.march_state.step_history.dashpots for step in steps)
