@@ -20,16 +20,19 @@ from softway.laws.law import Damped, Viscous
 from softway.marching.remeshing.carried.kept_contacts import KeptContacts
 from softway.marching.remeshing.carried.surface_forces import SurfaceForces
 from softway.model.model import Model
+from softway.solve.stagnation import Stagnation
 from softway.solve.static.proximal_equilibrium import proximal_equilibrium
 from softway.solve.static.static_equilibrium import InitialSlip, StaticState, equilibrium
 
 log = logging.getLogger(__name__)
 SUDDEN = 1e-6
 """Time of the change of a mesh, relative to a slab, for laws whose stress relaxes: it does not."""
-ROUNDS = 40
-"""Greatest number of equilibria in search of the friction."""
 EXACT = 1e-11
 """Change of the friction, relative to the greatest, below which it is found."""
+PATIENCE = 6
+"""Equilibria without a change half as small after which the search is given up."""
+ROUNDED = 1e-6
+"""Greatest change, relative as well, that the rounding of such equilibria explains."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -105,19 +108,29 @@ class Unsettled:
         return _smooth(model, u, dofs, load, self.time)
 
     def _rubbing(self, model: Model, carried: SurfaceForces, dofs: DofMap, load: Array) -> StaticState:
-        """Equilibrium under the friction of the places."""
+        """Equilibrium under the friction of the places.
+
+        Raises
+        ------
+        NumericsError
+            If there is none: where rows hardly differ, beside an edge, friction may move the pressure from one to
+            another, which have other friction.
+        """
         u = self.displacement
         rows, friction = model.rows(u, self.time), model.friction.at(u)
         traction, sliding = carried.first(rows, friction), np.zeros(len(rows.node), bool)
-        for _ in range(ROUNDS):
+        seen = Stagnation()
+        while seen.since < PATIENCE:
             pushed = load + rows.shear.spread(traction)
             rest = equilibrium(model, u, dofs, pushed, self.time, glue=model.bonds)
             u, last = rest.displacement, traction
             rows, friction = model.rows(u, self.time), model.friction.at(u)
             traction, sliding = carried.forces(rows, friction, rest.pressure)
-            if model.space.greatest(traction - last) <= EXACT * model.space.greatest(traction):
-                break
-        return replace(rest, traction=traction, sliding=sliding)
+            change, size = model.space.greatest(traction - last), model.space.greatest(traction)
+            seen = seen.after(change)
+            if change <= (ROUNDED if seen.since == PATIENCE else EXACT) * size:
+                return replace(rest, traction=traction, sliding=sliding)
+        raise NumericsError("friction and pressure change each other without end", self.time)
 
 
 def _smooth(model: Model, u: Array, dofs: DofMap, load: Array, time: float) -> StaticState:

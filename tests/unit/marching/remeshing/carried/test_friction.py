@@ -9,13 +9,16 @@ from adapting import adaptive_march
 from passing import finest, keeps_its_balances
 
 import softway as sw
+from softway.bodies.assembled.material_states import MaterialStates
 from softway.heat.coupled.build import build
 from softway.marching.remeshing.adapted_scene import adapted_scene
 from softway.marching.remeshing.carried.carrying import carried_over
+from softway.marching.remeshing.carried.settling import Unsettled
 from softway.marching.remeshing.carried.surface_forces import SurfaceForces
 from softway.meshes.adaptive.adapt import Adapt
 from softway.meshes.adaptive.refinement import refined
 from softway.meshes.generators.shapes import disc, rectangle
+from softway.solve.static.static_equilibrium import StaticState
 
 LEVELS = 4
 ADAPT = Adapt(levels=LEVELS, smooth=0.0, tolerance=1.0, buffer=2, contact_cells=4)
@@ -159,3 +162,38 @@ def test_totals_on_a_flat_surface() -> None:
     found = one.on(halves)
     assert found.traction[0, 2].tolist() == [1.5, 0.0]
     assert replace(found, traction=one.traction).total.tolist() == total.tolist()
+
+
+def test_massless_nodes_beside_an_edge_are_in_equilibrium_with_their_friction(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Rows of a disc on the corner of a block hardly differ: its friction moves the pressure from one to another."""
+    found: list[tuple[Unsettled, StaticState]] = []
+    settle = Unsettled.settled
+
+    def settled(self: Unsettled) -> tuple[StaticState, MaterialStates]:
+        found.append((self, settle(self)[0]))
+        return found[-1][1], ()
+
+    monkeypatch.setattr(Unsettled, "settled", settled)
+    velocity = sw.bodies.Uniform(value=(0.06, -0.24))
+    soft, stiff = sw.NeoHookean(E=1.0, nu=0.35), sw.NeoHookean(E=3.0, nu=0.3)
+    lens = sw.Solid(
+        mesh=disc(1.0, 8, centre=(0.0, 1.04), cell="tri3"), material=soft, density=1.0, velocity=velocity, adapt="auto"
+    )
+    block = rectangle((2.5, 1.7), (9, 6), origin=(0.0, -1.7))
+    bodies = {
+        "lens": lens,
+        "block": sw.Solid(mesh=block, material=stiff, density=1.0, supports=(sw.bodies.Fixed(on="bottom"),)),
+    }
+    contact = sw.Contact(between=("lens", "block"), friction=sw.laws.Coulomb(mu=0.2))
+    scene = sw.Scene(bodies=bodies, contacts=(contact,))
+    for _ in sw.march(scene, until=0.46):
+        pass
+    rubbed = [(change, rest) for change, rest in found if rest.traction.any()]
+    assert len(rubbed) > 1
+    for change, rest in rubbed:
+        model, u = change.model, rest.displacement
+        rows = model.rows(u, change.time)
+        pushed = rows.spread(rest.pressure, u.shape) + rows.shear.spread(rest.traction)
+        missing = model.dofs.only(~model.massive).forces(model.force(u) - pushed)
+        assert missing == pytest.approx(0.0, abs=1e-6 * rest.pressure.max())
+        assert (np.linalg.norm(rest.traction, axis=1) <= 0.2 * rest.pressure * (1.0 + 1e-9)).all()
