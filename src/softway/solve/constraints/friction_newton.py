@@ -150,6 +150,7 @@ def _released(problem: FrictionProblem, x: Array, law: SlipConditions, rounds: i
         slipping = slipping | more
 
 
+@np.errstate(over="ignore", invalid="ignore")  # steps that go astray: what is not finite is refused
 def _solved(problem: FrictionProblem, x: Array, rounds: int = ROUNDS) -> tuple[Array, BoolArray]:
     """Changes of the multipliers and slipping rows for a law that does not drop."""
     return _approached(_attempted(problem, x), rounds) if problem.count else (x, np.zeros(0, bool))

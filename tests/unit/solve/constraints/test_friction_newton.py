@@ -391,6 +391,14 @@ def test_forces_that_grow_without_bound_are_given_up(seed):
         solve_multipliers(it, start)
 
 
+@pytest.mark.parametrize("size", [1e160, 1e300])
+def test_forces_that_overflow_are_refused_without_a_warning(size):
+    it = problem(4, 6, 2, Coulomb(mu=0.3))
+    it = replace(it, law=replace(it.law, turning=size * turning(5, 6)), free=size * it.free)
+    with pytest.raises(NoConvergence, match="friction of 6 contact rows: the forces are not finite"):
+        solve_multipliers(it, np.full(18, size))
+
+
 def test_a_problem_is_given_up_by_its_steps():
     """By their number alone: ten rows that depend on each other need many, whatever the rounding."""
     hard = dependent(71, 4, 10)
