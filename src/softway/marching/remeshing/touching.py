@@ -56,9 +56,11 @@ def closing(model: Model, now: MarchState) -> Array:
     near, both = here.near, (here.near & later.near)[here.near]
     before, after = here.gap(start.displacement)[near], here.gap(coming)[near]
     after[both] = np.minimum(after[both], later.gap(coming)[near][both])
+    motion = np.linalg.norm(span * start.velocity, axis=1)
+    most = here.travel(motion, float(motion.max(initial=0.0)))[near]  # a facet goes on beyond its edges
     crushable = np.array([not part.internal.linear for part in model.parts])[model.part_of]
     out = np.zeros(model.shape[0])
-    np.maximum.at(out, here.node[near], before - after)
+    np.maximum.at(out, here.node[near], np.minimum(before - after, most))
     return out / np.where(crushable, limit, max(limit, SMALL_STRAIN))
 
 

@@ -17,8 +17,10 @@ from softway.meshes.adaptive.refinement import AdaptedMesh, adapted_mesh
 from softway.meshes.adaptive.tree import Tree, tree_of
 from softway.meshes.mesh import Mesh
 
-SHORT = 2.0
-"""Slabs with the finest cells that ``auto`` makes for one with those of the given mesh."""
+SOON = 1.0
+"""Greatest way in a requested slab, relative to the allowed approach to cells that ``auto`` makes finer than now."""
+LATE = 8.0
+"""The same to cells that are there."""
 
 
 @dataclass(frozen=True, slots=True, eq=False, kw_only=True)
@@ -146,11 +148,12 @@ def shallower(how: Adapt, base: Mesh, times: int = 1) -> Adapt:
 
 
 def unhurried(how: Adapt, present: AdaptedMesh, way: float) -> Adapt:
-    """Adaption of ``auto`` whose finest cells need no slabs shorter than half of the requested ones at a contact.
+    """Adaption of ``auto`` whose cells make slabs at a contact hardly shorter than requested.
 
     Surfaces approach by a part of an edge in a slab only, so that cells that are small against the way in a requested
-    slab make slabs short.  Cells become finer than they are only where requested slabs suffice, so that meshes do not
-    change to and fro.
+    slab make slabs short.  Cells become finer than they are only where requested slabs suffice.  Those that are there
+    stay while an eighth of it does: coarser ones would change the force of the contact, and change to and fro with the
+    speed of its surfaces.
 
     Parameters
     ----------
@@ -166,12 +169,12 @@ def unhurried(how: Adapt, present: AdaptedMesh, way: float) -> Adapt:
     >>> from softway.meshes.generators.shapes import interval
     >>> bar = interval(1.0, cells=4)
     >>> [unhurried(Adapt(), refined(bar, np.full(4, k)), 0.2).deepest(1) for k in (0, 1, 2)]
-    [0, 1, 1]
+    [0, 1, 2]
     """
     base, dim = present.base, present.base.cell_dim
     now = int(present.leaves.level.max()) // dim
     while (times := how.deepest(dim) // dim) > 0:
-        if way <= (1.0 if times <= now else 0.5) * SHORT * how.finest(base):
+        if way <= (LATE if times <= now else SOON) * how.finest(base):
             break
         how = shallower(how, base)
     return how

@@ -89,6 +89,30 @@ def test_cells_are_no_smaller_than_requested_slabs_bring_to_touch(speed: float, 
     assert abs(others[-1].ledger.energy_error) < 1e-10 * first.ledger.energy_kinetic
 
 
+@pytest.mark.slow
+def test_cells_at_a_contact_stay_fine_whatever_the_speed_of_its_surfaces() -> None:
+    """The sides of a disc that is crushed come down faster than requested slabs take: coarser cells are stiffer."""
+    disc = sw.Solid(
+        mesh=sw.meshes.Disc(radius=1.0, centre=(0.0, 1.04), cells=8),
+        material=sw.NeoHookean(E=1.0, nu=0.35), density=1.0,
+        velocity=sw.bodies.Uniform(value=(0.0735, -0.294)), adapt="auto",
+    )  # fmt: skip
+    below = sw.Solid(
+        mesh=sw.meshes.Rectangle(size=(2.5, 1.7), cells=(9, 6), origin=(-1.25, -1.7)),
+        material=sw.NeoHookean(E=3.0, nu=0.3), density=1.0, supports=(sw.bodies.Fixed(on="bottom"),),
+    )  # fmt: skip
+    bodies = {"disc": disc, "below": below}
+    scene = sw.Scene(bodies=bodies, contacts=(sw.Contact(between=("disc", "below"), friction=sw.laws.Coulomb(mu=0.2)),))
+    steps = list(sw.march(scene, until=1.6))
+    closed = [step for step in steps if next(iter(step.ledger.contacts.values())).force_n > 0.0]
+    fast = [closing(step.model, step.march_state).max() for step in closed]
+    finest = Adapt().finest(steps[0].model.adapted["disc"].base)
+    assert max(fast) > 2.0 * finest
+    assert {int(step.model.adapted["disc"].leaves.level.max()) for step in closed} == {4}
+    assert sum(bool(step.transfers) for step in closed) > 3
+    assert abs(steps[-1].ledger.remeshing) < 1e-12 * steps[0].ledger.energy_kinetic
+
+
 @pytest.mark.parametrize(("cells", "halvings"), [((3, 2, 3), 1), ((1, 1, 1), 2)])
 def test_small_meshes_in_space_have_a_thousand_nodes(cells: tuple[int, int, int], halvings: int) -> None:
     """Eight times the cells, or two halvings where that many nodes suffice."""
