@@ -116,7 +116,7 @@ fuzz: $(TEST)/ready
 
 drops: $(TEST)/ready
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(TEST)/bin/python -W ignore tests/robustness/run_drops.py 500 --jobs $(JOBS) --out docs/verification/robustness/drops.jsonl
-	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(TEST)/bin/python -W ignore tests/robustness/run_drops.py 100 --adapt --seconds 400 --jobs $(JOBS) --out docs/verification/robustness/adapted_drops.jsonl
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(TEST)/bin/python -W ignore tests/robustness/run_drops.py 100 --adapt --seconds 900 --jobs $(JOBS) --out docs/verification/robustness/adapted_drops.jsonl
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(TEST)/bin/python -W ignore tests/robustness/run_drops.py 200 --rigid --jobs $(JOBS) --out docs/verification/robustness/rigid_drops.jsonl
 	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 $(TEST)/bin/python -W ignore tests/robustness/run_drops.py 200 --assemblies --jobs $(JOBS) --out docs/verification/robustness/assemblies.jsonl
 	$(TEST)/bin/python tests/robustness/page.py

@@ -132,8 +132,8 @@ def adapted_drops(given: list[dict[str, Any]], found: list[dict[str, Any]]) -> s
     seconds = [d["seconds"] for d in found]
     text = f"""## Random drops on meshes that adapt
 
-The first {len(found)} of these drops with `adapt = "auto"` in every solid (`--adapt --seconds 400`). *Slow* is more
-than 400 s of processor time; half of the drops took less than {statistics.median(seconds):.0f} s, and nine in ten less
+The first {len(found)} of these drops with `adapt = "auto"` in every solid (`--adapt --seconds 900`). *Slow* is more
+than 900 s of processor time; half of the drops took less than {statistics.median(seconds):.0f} s, and nine in ten less
 than {statistics.quantiles(seconds, n=10)[-1]:.0f} s.
 Meshes of cells that are not cut stay; small ones are fine from the start where a contact is near.
 
