@@ -40,6 +40,8 @@ TOP = (
 """Top-level keys of a scenario that users may put inside a body by mistake."""
 OF_BODIES = ("mesh", "material", "density", "velocity", "supports", "thermal")
 """Keys of bodies that users may put at the top level by mistake."""
+OF_LOADS = ("gravity", "traction")
+"""Kinds of loads that users may put at the top level by mistake."""
 OF_HEAT = ("conductance", "hardness", "gas", "roughness", "emissivity", "tool_temperature", "share")
 """Keys of the heat of a contact that users may put into the contact by mistake."""
 
@@ -241,6 +243,8 @@ def _check_keys(value: Mapping[str, Any], cls: type, where: str, unit: str | Non
                 place = f"'{key}' at the top level of the file; "
             elif not where and key in OF_BODIES:
                 place = f"'{key}' in the table of its body, bodies.NAME.{key}; "
+            elif not where and key in OF_LOADS:
+                place = f'a table of loads, [[loads]] with kind = "{key.capitalize()}"; '
             elif cls.__name__ == "Contact" and key in OF_HEAT:
                 place = f"'{key}' in the table of its heat, heat = {{ {key} = ... }}; "
             problem = f"unknown key (value {given!r}); {cls.__name__}"

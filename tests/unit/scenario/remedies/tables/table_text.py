@@ -105,6 +105,11 @@ TABLE: Table = {
         "bodies.NAME.supports",
         lambda _: loads(PLANE.replace(SOLID, SOLID + "supports = [{ on = 'bottom' }]\n"), units=UNITS),
     ),
+    "key of a load": Call(
+        lambda _: loads("gravity = [0, -9.81]\n" + PLANE, units=UNITS),
+        '[[loads]] with kind = "Gravity"',
+        lambda _: loads(PLANE + '[[loads]]\nkind = "Gravity"\nacceleration = [0, -9.81]', units=UNITS),
+    ),
     "missing key": read("[time]", "end =", "[time]\nend = 1"),
     "missing mesh": Try(PLANE, f"{B}.mesh={{kind='MeshFile'}}", "add path", f"{B}.mesh.path=tagged.inp & contacts=[]"),
     "no dataclass": Try(
