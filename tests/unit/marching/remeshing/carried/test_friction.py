@@ -164,6 +164,7 @@ def test_totals_on_a_flat_surface() -> None:
     assert replace(found, traction=one.traction).total.tolist() == total.tolist()
 
 
+@pytest.mark.slow
 def test_massless_nodes_beside_an_edge_are_in_equilibrium_with_their_friction(monkeypatch: pytest.MonkeyPatch) -> None:
     """Rows of a disc on the corner of a block hardly differ: its friction moves the pressure from one to another."""
     found: list[tuple[Unsettled, StaticState]] = []
