@@ -21,29 +21,8 @@ from softway.scenario.hints.type_hints import (
     required,
 )
 from softway.scenario.hints.units_text import Units, example, is_quantity
+from softway.scenario.text.misplaced import right_place
 from softway.scenario.text.user_modules import Modules
-
-SOLIDS = ("contacts", "ties", "loads", "time", "start", "inertia", "solver", "output")
-TOP = (
-    *SOLIDS,
-    "joints",
-    "stops",
-    "springs",
-    "torques",
-    "forces",
-    "gears",
-    "motors",
-    "pile",
-    "heat_contacts",
-    "heat_links",
-)
-"""Top-level keys of a scenario that users may put inside a body by mistake."""
-OF_BODIES = ("mesh", "material", "density", "velocity", "supports", "thermal")
-"""Keys of bodies that users may put at the top level by mistake."""
-OF_LOADS = ("gravity", "traction")
-"""Kinds of loads that users may put at the top level by mistake."""
-OF_HEAT = ("conductance", "hardness", "gas", "roughness", "emissivity", "tool_temperature", "share")
-"""Keys of the heat of a contact that users may put into the contact by mistake."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -238,17 +217,9 @@ def _check_keys(value: Mapping[str, Any], cls: type, where: str, unit: str | Non
     known = inputs(cls)
     for key, given in value.items():
         if key not in known and key != "kind":
-            place = ""
-            if where and key in TOP:
-                place = f"'{key}' at the top level of the file; "
-            elif not where and key in OF_BODIES:
-                place = f"'{key}' in the table of its body, bodies.NAME.{key}; "
-            elif not where and key in OF_LOADS:
-                place = f'a table of loads, [[loads]] with kind = "{key.capitalize()}"; '
-            elif cls.__name__ == "Contact" and key in OF_HEAT:
-                place = f"'{key}' in the table of its heat, heat = {{ {key} = ... }}; "
-            problem = f"unknown key (value {given!r}); {cls.__name__}"
-            raise InputError(join(where, key), problem, place + nearest(key, known))
+            place = right_place(key, cls.__name__, top=not where)
+            remedy = f"{place}; known: {', '.join(known)}" if place else nearest(key, known)
+            raise InputError(join(where, key), f"unknown key (value {given!r}); {cls.__name__}", remedy)
     kind = str(value.get("kind", cls.__name__))
     if "kind" not in known and kind.rpartition(":")[2] != cls.__name__:
         raise InputError(join(where, "kind"), f"{kind!r} is unknown", nearest(kind, [cls.__name__]))

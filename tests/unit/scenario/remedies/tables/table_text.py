@@ -110,6 +110,14 @@ TABLE: Table = {
         '[[loads]] with kind = "Gravity"',
         lambda _: loads(PLANE + '[[loads]]\nkind = "Gravity"\nacceleration = [0, -9.81]', units=UNITS),
     ),
+    "rigid wall": Call(
+        lambda _: loads(PLANE + "[walls.floor]\nnormal = [0, 1]", units=UNITS),
+        '[bodies.walls] with kind = "Tool"',
+        lambda _: loads(
+            PLANE + "[bodies.floor]\nkind = 'Tool'\nshape = { kind = 'HalfSpace', point = [0, 0], normal = [0, 1] }",
+            units=UNITS,
+        ),
+    ),
     "missing key": read("[time]", "end =", "[time]\nend = 1"),
     "missing mesh": Try(PLANE, f"{B}.mesh={{kind='MeshFile'}}", "add path", f"{B}.mesh.path=tagged.inp & contacts=[]"),
     "no dataclass": Try(
