@@ -48,7 +48,7 @@ def adapted(asked: Asked) -> Iterator[Figure]:
 
 def _bracket(asked: Asked) -> Iterator[Figure]:
     """Processor time, and differences of stress and force, of the dropped bracket."""
-    levels = ["--levels", "3" if asked.depth == "smoke" else "6"]
+    levels = ["--levels", "3" if asked.smoke else "6"]
     try:
         found = line([sys.executable, str(HERE / "bracket.py"), *levels], environment(1))
     except Absent as why:
@@ -66,7 +66,7 @@ def _bracket(asked: Asked) -> Iterator[Figure]:
 
 def _runs(asked: Asked, name: str) -> list[dict[str, Any]]:
     """The runs of a problem, uniform and adapted in turn."""
-    more = {"smoke": ["--smallest"], "full": ["--deepest"]}.get(asked.depth, [])
+    more = ["--smallest"] if asked.smoke else []
     try:
         return list(line([sys.executable, str(HERE / "adapted.py"), name, *more], environment(1))["runs"])
     except Absent as why:

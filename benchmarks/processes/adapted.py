@@ -1,8 +1,8 @@
 """Time against error, on uniform meshes and on meshes that follow waves and contacts.
 
-``python benchmarks/processes/adapted.py NAME [--smallest] [--deepest]`` marches a problem with finer and finer cells
-and prints one line of JSON: of each run its finest cell, the processor time of building and marching [s], its error,
-and the sum of its nodes over its slabs.
+``python benchmarks/processes/adapted.py NAME [--smallest]`` marches a problem with finer and finer cells and
+prints one line of JSON: of each run its finest cell, the processor time of building and marching [s], its error, and
+the sum of its nodes over its slabs.
 """
 
 import argparse
@@ -38,8 +38,8 @@ class Problem:
         End [s].
     step
         Slab on cells that have not been cut [s]; half as long where edges are halved.
-    levels, deepest
-        Bisections of the finest cells of the runs, and of those that are only asked for.
+    levels
+        Bisections of the finest cells of the runs.
     reference
         Bisections of the uniform mesh whose motion counts as exact, beyond those of the finest run: half of its cells'
         size would take an hour; None with an exact force.
@@ -51,7 +51,6 @@ class Problem:
     until: float
     step: float
     levels: tuple[int, ...]
-    deepest: tuple[int, ...]
     reference: int | None
     adapt: Adapt
 
@@ -93,7 +92,7 @@ def bar() -> Problem:
                     velocity=sw.bodies.Uniform(value=1.0))  # fmt: skip
     wall = sw.Tool(shape=sw.obstacles.HalfSpace(point=1.3, normal=-1.0))
     scene = sw.Scene(bodies={"body": body, "wall": wall}, contacts=(sw.Contact(between=("body.right", "wall")),))
-    return Problem(scene=scene, until=2.8, step=0.1 / np.sqrt(2.0), levels=(4, 6), deepest=(4, 6, 8), reference=None,
+    return Problem(scene=scene, until=2.8, step=0.1 / np.sqrt(2.0), levels=(4, 6, 8), reference=None,
                    adapt=Adapt(every=8, buffer=8))  # fmt: skip
 
 
@@ -103,7 +102,7 @@ def wave() -> Problem:
     body = sw.Solid(mesh=mesh, material=sw.LinearElastic(E=1.0, nu=0.3), density=1.0)
     ramp = sw.bodies.Ramp(times=(0.0, 0.05, 0.1), factors=(0.0, 1.0, 0.0))
     scene = sw.Scene(bodies={"body": body}, loads=(sw.Traction(on="body.source", value=(1.0, 0.0), ramp=ramp),))
-    return Problem(scene=scene, until=0.5, step=0.064, levels=(6, 8, 10), deepest=(6, 8, 10), reference=0,
+    return Problem(scene=scene, until=0.5, step=0.064, levels=(6, 8, 10), reference=0,
                    adapt=Adapt(tolerance=0.3, every=8, buffer=8))  # fmt: skip
 
 
@@ -127,14 +126,13 @@ def thrown(mesh: Mesh, up: Sequence[float]) -> sw.Scene:
 def ball() -> Problem:
     """A disc that meets a floor, until the wave has come to its centre."""
     return Problem(scene=thrown(disc(0.5, 8, cell="tri3"), (0.0, 1.0)), until=0.5, step=0.08,
-                   levels=(4, 6, 8), deepest=(4, 6, 8), reference=0,
-                   adapt=Adapt(every=8, buffer=8))  # fmt: skip
+                   levels=(4, 6, 8), reference=0, adapt=Adapt(every=8, buffer=8))  # fmt: skip
 
 
 def corner() -> Problem:
     """A cube of tetrahedra that meets an inclined floor with a corner, until the wave has come to its centre."""
     return Problem(scene=thrown(box((1.0,) * 3, (6, 6, 6), cell="tet4"), (2.0, 1.0, 2.0)), until=0.6,
-                   step=0.08, levels=(3, 6), deepest=(3, 6), reference=0,
+                   step=0.08, levels=(3, 6), reference=0,
                    adapt=Adapt(every=8, buffer=4, contact_cells=4))  # fmt: skip
 
 
@@ -204,15 +202,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("name", choices=PROBLEMS)
     parser.add_argument("--smallest", action="store_true", help="two levels on the base mesh")
-    parser.add_argument("--deepest", action="store_true", help="the finest cells, too")
     parser.add_argument("--levels", type=int, nargs="+", help="these levels")
     parser.add_argument("--reference", type=int, help="bisections of the reference beyond the finest run")
     given = parser.parse_args()
     problem = PROBLEMS[given.name]()
     if given.reference is not None:
         problem = replace(problem, reference=given.reference)
-    levels = given.levels or ((problem.base.cell_dim,) if given.smallest else
-                              problem.deepest if given.deepest else problem.levels)  # fmt: skip
+    levels = given.levels or ((problem.base.cell_dim,) if given.smallest else problem.levels)
     print(json.dumps({"runs": list(runs(problem, levels))}))
 
 
