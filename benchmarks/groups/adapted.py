@@ -23,8 +23,8 @@ def adapted(asked: Asked) -> Iterator[Figure]:
     """Time against error, on uniform meshes and on meshes that follow waves and contacts: processor time of building
     and marching by one thread, and the error at the end of the run; the bar's is that of its contact force, of
     the exact one; others are those of the motion in the energy norm, of that on the uniform mesh of the finest cells,
-    which counts as exact.  The figures of a line of the picture are those of one kind of mesh with finer and finer
-    cells.
+    which counts as exact: a dashed line is its time.  The figures of a line of the picture are those of one kind of
+    mesh with finer and finer cells.
 
     The bracket of ``scenarios/bracket_drop.toml`` has its edges halved twice: everywhere, and where the contact and the
     stress want it.  Its errors are those of the greatest von Mises stress of a cell and of the contact force against
